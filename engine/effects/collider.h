@@ -1,0 +1,68 @@
+// A rigid body that the material cannot enter: grid nodes inside it take on its contact condition. Sampled
+// only in blocks that its bounds meet.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "engine/effects/block_nodes.h"
+#include "engine/effects/contact.h"
+#include "engine/effects/rigid_motion.h"
+
+namespace firn {
+
+struct Collider {
+  std::string name;
+  ShapePtr shape;
+  Contact contact = Contact::separating;
+  double friction = 0;
+  RigidMotion motion;
+};
+
+/// A collider where it is during one step.
+class PosedCollider {
+ public:
+  PosedCollider(const Collider& collider, double time);
+
+  template <class Real, int D>
+  void apply(BlockNodes<Real, D>& block, double dt) const {
+    static_cast<void>(dt);
+    if (!may_touch(block.position(0), block.position(kBlockNodes<D> - 1))) return;
+    std::array<Vec3, kBlockNodes<D>> points;
+    std::array<double, kBlockNodes<D>> phi;
+    for (std::size_t n = 0; n < points.size(); ++n) points[n] = pose_.to_local(block.position(n));
+    collider_->shape->distance(points, phi);
+    for (std::size_t n = 0; n < points.size(); ++n) {
+      if (phi[n] > 0 || !(block.nodes[n].m > Real(0))) continue;
+      const Vector<Real, D> wall = to_vector<Real, D>(pose_.velocity_at(block.position(n)));
+      const Vector<Real, D> normal = plane_normal<Real, D>(outward(points[n], block.h));
+      const Real friction = static_cast<Real>(collider_->friction);
+      block.nodes[n].v = contact_velocity(collider_->contact, friction, block.nodes[n].v, wall, normal);
+      // A two-sided condition holds before the forces too: its nodes have no rate (equations.md, section 2).
+      if (!block.before.empty() && collider_->contact != Contact::separating)
+        block.before[n] = contact_velocity(collider_->contact, Real(0), block.before[n], wall, normal);
+    }
+  }
+
+ private:
+  bool may_touch(const Vec3& low, const Vec3& high) const {
+    return (low.array() <= bounds_.max.array()).all() && (high.array() >= bounds_.min.array()).all();
+  }
+
+  /// Gradient of the distance, unit or zero, in world axes.
+  Vec3 outward(const Vec3& local, double h) const;
+
+  /// A 3D normal within the D axes of the scene, unit or zero.
+  template <class Real, int D>
+  static Vector<Real, D> plane_normal(Vec3 n) {
+    for (int d = D; d < 3; ++d) n[d] = 0;
+    const double length = n.norm();
+    return to_vector<Real, D>(length > 0 ? Vec3(n / length) : n);
+  }
+
+  const Collider* collider_;
+  RigidPose pose_;
+  Bounds bounds_;  // in the world
+};
+
+}  // namespace firn

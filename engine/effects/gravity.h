@@ -1,0 +1,19 @@
+// A constant acceleration of every node.
+#pragma once
+
+#include "engine/effects/block_nodes.h"
+
+namespace firn {
+
+struct Gravity {
+  Vec3 acceleration;  // m/s^2
+
+  template <class Real, int D>
+  void apply(BlockNodes<Real, D>& block, double dt) const {
+    const Vector<Real, D> change = to_vector<Real, D>(dt * acceleration);
+    for (auto& node : block.nodes)
+      if (node.m > Real(0)) node.v += change;
+  }
+};
+
+}  // namespace firn

@@ -1,0 +1,148 @@
+// A scene as the user wrote it: plain values in SI units (angles in degrees, as in the file). What the scene
+// leaves out is empty. Nothing is resolved: names are still names, each with the place it was written at.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "engine/base/problems.h"
+#include "engine/effects/contact.h"
+#include "engine/shapes/shape.h"
+
+namespace firn {
+
+/// A name that the plan resolves, and where it stands.
+struct Name {
+  std::string text;
+  SourceMark mark;
+};
+
+struct ShapeDescription;
+
+struct SphereDescription {
+  Vec3 center = Vec3::Zero();
+  double radius = 0;
+};
+struct BoxDescription {
+  Vec3 min = Vec3::Zero(), max = Vec3::Zero();
+};
+struct CylinderDescription {
+  Vec3 start = Vec3::Zero(), end = Vec3::Zero();
+  double radius = 0;
+};
+struct ConeDescription {
+  Vec3 base = Vec3::Zero(), apex = Vec3::Zero();
+  double radius = 0;
+};
+// Solid on the side the normal points away from.
+struct PlaneDescription {
+  Vec3 point = Vec3::Zero(), normal = Vec3::Zero();
+};
+struct MeshDescription {
+  Name file;
+};  // any format assimp reads
+struct LevelSetDescription {
+  Name file;
+  std::string grid;
+};  // .vdb; empty: the first level set in it
+struct CombinationDescription {
+  enum class Operation { unite, subtract, intersect } operation;  // subtract: the first less all others
+  std::vector<ShapeDescription> operands;
+};
+
+struct ShapeDescription {
+  using Kind = std::variant<SphereDescription, BoxDescription, CylinderDescription, ConeDescription,
+                            PlaneDescription, MeshDescription, LevelSetDescription, CombinationDescription>;
+  Kind kind;
+  SourceMark mark;
+  // Applied in this order: scale, rotate (about x, then y, then z), translate.
+  double scale = 1;
+  Vec3 rotate = Vec3::Zero();     // degrees
+  Vec3 translate = Vec3::Zero();  // m
+};
+
+enum class Sampling { jittered, poisson };
+
+struct BodyDescription {
+  std::string name;
+  SourceMark mark;
+  Name material;
+  std::optional<ShapeDescription> shape;  // this or points
+  std::optional<Name> points;             // CSV or PLY file of positions (and optionally velocities)
+  Sampling sampling = Sampling::jittered;
+  double particles_per_cell = 8;
+  Vec3 velocity = Vec3::Zero();          // m/s
+  Vec3 angular_velocity = Vec3::Zero();  // degrees/s about the body's centre of mass
+};
+
+/// A material as named values; the registry knows which model takes which.
+struct MaterialDescription {
+  struct Value {
+    std::variant<double, bool, std::string> value;
+    SourceMark mark;
+  };
+  std::string name;
+  SourceMark mark;
+  Name model;
+  std::map<std::string, Value> parameters;  // density among them
+};
+
+struct KeyFrame {
+  double time = 0;               // s
+  Vec3 position = Vec3::Zero();  // m
+  Vec3 rotation = Vec3::Zero();  // degrees about x, then y, then z
+};
+
+struct ColliderDescription {
+  std::string name;
+  SourceMark mark;
+  ShapeDescription shape;
+  Contact contact = Contact::separating;
+  double friction = 0;              // Coulomb, for slip and separating
+  std::vector<KeyFrame> keyframes;  // empty: static; moves the shape about its own origin
+};
+
+struct DomainDescription {
+  Vec3 min = Vec3::Zero(), max = Vec3::Zero();
+  Contact contact = Contact::separating;
+  double friction = 0;
+};
+
+enum class Transfer { pic, flip, apic };
+enum class Precision { single, double_ };
+
+struct SimulationDescription {
+  int dimension = 3;
+  double cell_size = 0;  // m
+  double duration = 0;   // s
+  double frame_rate = 24;
+  Transfer transfer = Transfer::apic;
+  std::optional<double> flip_ratio;  // flip only; 0 is PIC, 1 keeps every increment
+  Precision precision = Precision::single;
+  double cfl = 0.4;
+  std::optional<double> max_dt;  // s
+  std::uint64_t seed = 1;
+};
+
+struct OutputDescription {
+  std::vector<Name> attributes;  // beside P v id pscale
+};
+
+struct SceneDescription {
+  std::filesystem::path file;
+  std::string title, description;
+  SimulationDescription simulation;
+  std::optional<Vec3> gravity;  // m/s^2
+  std::vector<MaterialDescription> materials;
+  std::vector<BodyDescription> bodies;
+  std::vector<ColliderDescription> colliders;
+  std::optional<DomainDescription> domain;
+  OutputDescription output;
+};
+
+}  // namespace firn

@@ -1,0 +1,128 @@
+#include "engine/scene/estimate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/grid/block_layout.h"
+#include "engine/scene/seeding.h"
+#include "materials/model_info.h"
+
+namespace firn {
+namespace {
+
+template <int D>
+double wave_speed_at_rest(const Material& material, double density) {
+  return std::visit(
+      [&](const auto& model) {
+        typename std::remove_cvref_t<decltype(model)>::template Point<double, D> point;
+        point.visit([](auto, auto& F) { F = std::remove_cvref_t<decltype(F)>::identity(); });
+        return std::sqrt(model.update(point, 0.0).wave_modulus / density);
+      },
+      material);
+}
+
+double wave_speed_at_rest(const BatchPlan& batch, int dimension) {
+  switch (dimension) {
+    case 1:
+      return wave_speed_at_rest<1>(batch.law, batch.density);
+    case 2:
+      return wave_speed_at_rest<2>(batch.law, batch.density);
+    default:
+      return wave_speed_at_rest<3>(batch.law, batch.density);
+  }
+}
+
+// Blocks whose centre is near enough to the body, counted on a lattice that is coarsened for huge bodies.
+double count_blocks(const Shape& shape, int dimension, double h) {
+  const Bounds bounds = shape.bounds();
+  if (bounds.empty()) return 0;
+  double edge = kBlockEdge * h;
+  const auto lattice_points = [&] {
+    double n = 1;
+    for (int d = 0; d < dimension; ++d) n *= std::ceil((bounds.max[d] - bounds.min[d]) / edge) + 3;
+    return n;
+  };
+  while (lattice_points() > 1e6) edge *= 2;
+  // The block itself, and the neighbours its particles' kernels reach.
+  const double near = (0.5 * std::sqrt(dimension) + 0.5) * edge + 0.5 * kBlockEdge * h;
+  std::vector<Vec3> centres;
+  std::array<int, 3> n{1, 1, 1};
+  for (int d = 0; d < dimension; ++d)
+    n[static_cast<std::size_t>(d)] = static_cast<int>(std::ceil((bounds.max[d] - bounds.min[d]) / edge)) + 3;
+  for (int i = 0; i < n[0]; ++i)
+    for (int j = 0; j < n[1]; ++j)
+      for (int k = 0; k < n[2]; ++k) {
+        Vec3 c = Vec3::Zero();
+        const std::array<int, 3> index{i, j, k};
+        for (int d = 0; d < dimension; ++d)
+          c[d] = bounds.min[d] + (index[static_cast<std::size_t>(d)] - 0.5) * edge;
+        centres.push_back(c);
+      }
+  std::vector<double> phi(centres.size());
+  shape.distance(centres, phi);
+  const auto blocks = std::count_if(phi.begin(), phi.end(), [&](double x) { return x < near; });
+  return static_cast<double>(blocks) * std::pow(edge / (kBlockEdge * h), dimension);
+}
+
+// Bytes a point takes in a frame: float P and v, 64-bit id, compressed; others by their components.
+constexpr double kPointBytes = 24;
+constexpr double kAttributeComponentBytes = 3.6;
+
+}  // namespace
+
+PlainCost plain_cost(int dimension, Precision precision) {
+  const double wide = precision == Precision::double_ ? 1.15 : 1.0;
+  switch (dimension) {
+    case 1:
+      return {60 * wide, 15 * wide, 15 * wide};
+    case 2:
+      return {130 * wide, 25 * wide, 60 * wide};
+    default:
+      return {430 * wide, 50 * wide, 330 * wide};
+  }
+}
+
+Estimate estimate(const Plan& plan) {
+  const SimulationDescription& s = plan.scene.simulation;
+  Estimate e;
+  const PlainCost cost = plain_cost(s.dimension, s.precision);
+  const double real = s.precision == Precision::double_ ? 8 : 4;
+  double step_ns = 0, widest = 0;
+  for (std::size_t b = 0; b < plan.bodies.size(); ++b) {
+    const BodyDescription& body = plan.scene.bodies[b];
+    const BatchPlan& batch = plan.batches[plan.bodies[b].batch];
+    const double n = estimate_count(body, plan.bodies[b].shape.get(), s.dimension, s.cell_size,
+                                    plan.scene.file.parent_path());
+    e.particles.push_back(n);
+    e.total_particles += n;
+    e.particle_bytes += n * (batch.columns.reals(s.dimension) * real + sizeof(std::uint32_t));
+    widest = std::max(widest, n * s.dimension * s.dimension * real);
+    const bool decomposes = find_model(batch.model)->decomposition != "none";
+    step_ns += n * (cost.transfers + (decomposes ? cost.decomposition : cost.plain_energy));
+    if (plan.bodies[b].shape) e.blocks += count_blocks(*plan.bodies[b].shape, s.dimension, s.cell_size);
+    e.wave_speed = std::max(e.wave_speed, wave_speed_at_rest(batch, s.dimension));
+    double speed = body.velocity.norm();
+    if (plan.bodies[b].shape) {
+      const Bounds bounds = along_axes(plan.bodies[b].shape->bounds(), s.dimension);
+      speed += body.angular_velocity.norm() * std::numbers::pi / 180 * (bounds.max - bounds.min).norm() / 2;
+    }
+    e.speed = std::max(e.speed, speed);
+  }
+  for (const Collider& c : plan.effects.colliders) e.speed = std::max(e.speed, c.motion.max_speed(0));
+  const double node_bytes = (s.dimension + 1 + (s.transfer == Transfer::flip ? s.dimension : 0)) * real;
+  e.grid_bytes = e.blocks * power(kBlockEdge, s.dimension) * node_bytes;
+  const double sorting = 20 * e.total_particles + widest, seeding = 24 * e.total_particles;
+  const double writing = 60 * e.total_particles;
+  e.peak_bytes = e.particle_bytes + e.grid_bytes + std::max({sorting, seeding, writing});
+  double components = 0;
+  for (const Attribute* a : plan.attributes) components += a->components;
+  e.disk_bytes = plan.frames() * e.total_particles * (kPointBytes + kAttributeComponentBytes * components);
+  e.dt = s.cfl * s.cell_size / (e.speed + e.wave_speed);
+  if (s.max_dt) e.dt = std::min(e.dt, *s.max_dt);
+  e.steps = std::ceil(s.duration / e.dt);
+  e.core_seconds = e.steps * step_ns * 1e-9;
+  return e;
+}
+
+}  // namespace firn

@@ -1,0 +1,197 @@
+// The scene format: every key with its type, range, unit and meaning, said once. The reader, the schema and
+// the example scene are visitors of these functions, so they cannot disagree. A key's default is its member's
+// initial value in description.h. What ties several keys together stands in checks.cpp.
+#pragma once
+
+#include <array>
+#include <type_traits>
+
+#include "engine/scene/description.h"
+#include "engine/scene/field.h"
+
+namespace firn {
+
+inline constexpr std::array<Choice<Transfer>, 3> kTransfers = {{
+    {"apic", Transfer::apic, "affine: keeps angular momentum, quiet"},
+    {"flip", Transfer::flip, "keeps detail, noisier; see flip_ratio"},
+    {"pic", Transfer::pic, "very dissipative"},
+}};
+inline constexpr std::array<Choice<Precision>, 2> kPrecisions = {{
+    {"float", Precision::single, "32 bits"},
+    {"double", Precision::double_, "64 bits"},
+}};
+inline constexpr std::array<Choice<Sampling>, 2> kSamplings = {{
+    {"jittered", Sampling::jittered, "one particle in each part of a cell, at random in it"},
+    {"poisson", Sampling::poisson, "at random with a least distance: more even, slower to make"},
+}};
+inline constexpr std::array<Choice<Contact>, 3> kContacts = {{
+    {"sticky", Contact::sticky, "moves with the surface"},
+    {"slip", Contact::slip, "slides along it and never leaves it"},
+    {"separating", Contact::separating, "slides along it and may leave it"},
+}};
+
+/// A description with every key at its default (Eigen leaves a plain Vec3{} uninitialised).
+template <class T>
+T defaults_of() {
+  if constexpr (std::is_same_v<T, Vec3>) {
+    return Vec3::Zero();
+  } else {
+    return {};
+  }
+}
+
+template <class V>
+void fields(V& v, SimulationDescription& d) {
+  using enum Need;
+  v.integer({"dimension", optional, "axes in use: x, then y, then z"}, d.dimension, {1, 3});
+  v.real({"cell_size", required, "edge of a grid cell", "m"}, d.cell_size, kPositive);
+  v.real({"duration", required, "simulated time", "s"}, d.duration, kPositive);
+  v.real({"frame_rate", optional, "frames per simulated second", "1/s"}, d.frame_rate, kPositive);
+  v.choice({"transfer", optional, "how velocity goes from the grid to the particles"}, d.transfer,
+           kTransfers);
+  v.real({"flip_ratio", optional,
+          "with transfer \"flip\" only: 0 is PIC, 1 keeps every increment; 0.99 if left out", "-", "0.99"},
+         d.flip_ratio, kFraction);
+  v.choice({"precision", optional, "of the particles and the grid"}, d.precision, kPrecisions);
+  v.real({"cfl", optional, "time step as a part of the largest explicit one"}, d.cfl,
+         {.min = 0, .max = 1, .min_open = true});
+  v.real({"max_dt", optional, "longest time step", "s", "1e-3"}, d.max_dt, kPositive);
+  v.integer({"seed", optional, "of every random number"}, d.seed, {0});
+}
+
+/// [gravity] holds one vector.
+template <class V>
+void fields(V& v, Vec3& gravity) {
+  v.vector({"acceleration", Need::required, "on every particle", "m/s^2"}, gravity);
+}
+
+template <class V>
+void fields(V& v, MaterialDescription& d) {
+  v.model({"model", Need::required, "one of those that 'firn materials' lists"}, d);
+}
+
+template <class V>
+void fields(V& v, SphereDescription& d) {
+  v.vector({"center", Need::required, "center", "m"}, d.center);
+  v.real({"radius", Need::required, "radius", "m"}, d.radius, kPositive);
+}
+
+template <class V>
+void fields(V& v, BoxDescription& d) {
+  v.vector({"min", Need::required, "lowest corner", "m"}, d.min);
+  v.vector({"max", Need::required, "highest corner", "m"}, d.max);
+}
+
+template <class V>
+void fields(V& v, CylinderDescription& d) {
+  v.vector({"start", Need::required, "center of one cap", "m"}, d.start);
+  v.vector({"end", Need::required, "center of the other cap", "m"}, d.end);
+  v.real({"radius", Need::required, "radius", "m"}, d.radius, kPositive);
+}
+
+template <class V>
+void fields(V& v, ConeDescription& d) {
+  v.vector({"base", Need::required, "center of the base", "m"}, d.base);
+  v.vector({"apex", Need::required, "tip", "m"}, d.apex);
+  v.real({"radius", Need::required, "radius of the base", "m"}, d.radius, kPositive);
+}
+
+template <class V>
+void fields(V& v, PlaneDescription& d) {
+  v.vector({"point", Need::required, "any point of the plane", "m"}, d.point);
+  v.vector({"normal", Need::required, "points out of the solid side; of any length"}, d.normal);
+}
+
+template <class V>
+void fields(V& v, MeshDescription& d) {
+  v.file({"file", Need::required, "closed triangle mesh (OBJ, PLY, STL, glTF, ...), relative to the scene"},
+         d.file);
+}
+
+template <class V>
+void fields(V& v, LevelSetDescription& d) {
+  v.file({"file", Need::required, "OpenVDB file, relative to the scene"}, d.file);
+  v.text({"grid", Need::optional, "name of a level set in it; the first if left out"}, d.grid);
+}
+
+template <class V>
+void fields(V& v, CombinationDescription& d) {
+  v.shapes({"of", Need::required, "two shapes or more"}, d.operands);
+}
+
+template <class V>
+void fields(V& v, ShapeDescription& d) {
+  using enum Need;
+  v.kind({"type", required, "of solid"}, d.kind);
+  v.real({"scale", optional, "size, about the shape's own origin; applied first"}, d.scale, kPositive);
+  v.vector({"rotate", optional, "about x, then y, then z; applied second", "degrees"}, d.rotate, Axes::about);
+  v.vector({"translate", optional, "applied last", "m"}, d.translate);
+}
+
+template <class V>
+void fields(V& v, BodyDescription& d) {
+  using enum Need;
+  v.text({"name", required, "unique among the bodies"}, d.name);
+  v.name({"material", required, "name of a [materials.NAME]"}, d.material);
+  v.shape({"shape", optional, "filled with particles; this or points"}, d.shape);
+  v.file({"points", optional, "CSV or PLY file of particles, relative to the scene; this or shape", "-",
+          "\"grains.csv\""},
+         d.points);
+  v.choice({"sampling", optional, "how a shape is filled"}, d.sampling, kSamplings);
+  v.real({"particles_per_cell", optional, "in a full cell"}, d.particles_per_cell,
+         {.min = 0, .max = 1000, .min_open = true});
+  v.vector({"velocity", optional, "at the start", "m/s"}, d.velocity);
+  v.vector({"angular_velocity", optional, "at the start, about the center of mass", "degrees/s"},
+           d.angular_velocity, Axes::about);
+}
+
+/// How a surface acts on the material; the same for colliders and for the walls of the domain.
+template <class V, class D>
+void contact_fields(V& v, D& d) {
+  v.choice({"contact", Need::optional, "what material does that meets the surface"}, d.contact, kContacts);
+  v.real({"friction", Need::optional, "Coulomb's coefficient; not with \"sticky\""}, d.friction,
+         kNotNegative);
+}
+
+template <class V>
+void fields(V& v, KeyFrame& d) {
+  v.real({"time", Need::required, "later than that of the key frame before", "s"}, d.time, kAnyNumber);
+  v.vector({"position", Need::optional, "of the shape's own origin", "m"}, d.position);
+  v.vector({"rotation", Need::optional, "about x, then y, then z", "degrees"}, d.rotation, Axes::about);
+}
+
+template <class V>
+void fields(V& v, ColliderDescription& d) {
+  v.text({"name", Need::required, "unique among the colliders"}, d.name);
+  v.shape({"shape", Need::required, "the solid part"}, d.shape);
+  contact_fields(v, d);
+  v.list({"keyframes", Need::optional, "its motion, linear in between; at rest if left out"}, d.keyframes);
+}
+
+template <class V>
+void fields(V& v, DomainDescription& d) {
+  v.vector({"min", Need::required, "lowest corner", "m"}, d.min);
+  v.vector({"max", Need::required, "highest corner", "m"}, d.max);
+  contact_fields(v, d);
+}
+
+template <class V>
+void fields(V& v, OutputDescription& d) {
+  v.attributes({"attributes", Need::optional, "of every particle, beside P, v, id and pscale"}, d.attributes);
+}
+
+template <class V>
+void fields(V& v, SceneDescription& d) {
+  using enum Need;
+  v.text({"title", optional, "one line"}, d.title);
+  v.text({"description", optional, "what it shows and what the right answer looks like"}, d.description);
+  v.section({"simulation", required, "the method and its accuracy"}, d.simulation);
+  v.section({"gravity", optional, "none if left out"}, d.gravity);
+  v.materials({"materials", required, "[materials.NAME], one for each material"}, d.materials);
+  v.list({"bodies", required, "what is simulated"}, d.bodies);
+  v.list({"colliders", optional, "what the bodies run into"}, d.colliders);
+  v.section({"domain", optional, "a box whose walls hold the material; open if left out"}, d.domain);
+  v.section({"output", optional, "what the frames hold"}, d.output);
+}
+
+}  // namespace firn

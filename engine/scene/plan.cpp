@@ -1,0 +1,153 @@
+#include "engine/scene/plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "engine/passes/transfer.h"
+#include "engine/scene/build_shape.h"
+#include "materials/model_info.h"
+
+namespace firn {
+namespace {
+
+ColumnSet transfer_columns(Transfer transfer) {
+  switch (transfer) {
+    case Transfer::pic:
+      return kTransferColumns | PicTransfer::columns;
+    case Transfer::flip:
+      return kTransferColumns | FlipTransfer::columns;
+    case Transfer::apic:
+      break;
+  }
+  return kTransferColumns | ApicTransfer::columns;
+}
+
+// The reader has checked every key and range against the same table.
+ParameterValues complete_values(const ModelInfo& model, const MaterialDescription& material) {
+  ParameterValues values;
+  for (const Parameter& parameter : model.parameters) {
+    const auto given = material.parameters.find(std::string(parameter.name));
+    values[std::string(parameter.name)] =
+        given == material.parameters.end() ? parameter.default_value : std::get<double>(given->second.value);
+  }
+  return values;
+}
+
+Eigen::Quaterniond rotation(const Vec3& degrees) {
+  const Vec3 r = degrees * (std::numbers::pi / 180);
+  return Eigen::AngleAxisd(r.z(), Vec3::UnitZ()) * Eigen::AngleAxisd(r.y(), Vec3::UnitY()) *
+         Eigen::AngleAxisd(r.x(), Vec3::UnitX());
+}
+
+RigidMotion motion(const std::vector<KeyFrame>& frames) {
+  std::vector<RigidMotion::Key> keys;
+  for (const KeyFrame& f : frames) keys.push_back({f.time, f.position, rotation(f.rotation)});
+  return RigidMotion(std::move(keys));
+}
+
+// Rounding of positions must stay far below a cell, or weights and gradients are noise.
+constexpr double kRoundingPerCell = 1e-3;
+
+void check_distance_from_origin(const SimulationDescription& s, const BodyDescription& body,
+                                const Shape& shape, Problems& problems) {
+  const Bounds b = along_axes(shape.bounds(), s.dimension);
+  const double far = b.min.cwiseAbs().cwiseMax(b.max.cwiseAbs()).maxCoeff();
+  if (far >= s.cell_size * (kMaxCell - 2 * kBlockEdge)) {
+    problems.add(
+        body.mark, fmt::format("bodies.{}", body.name),
+        fmt::format(
+            "reaches {:g} m from the origin, which is more than {} cells of {:g} m; move the scene to "
+            "the origin or use a larger simulation.cell_size",
+            far, kMaxCell - 2 * kBlockEdge, s.cell_size));
+    return;
+  }
+  const double epsilon = s.precision == Precision::single ? 0x1p-23 : 0x1p-52;
+  if (far * epsilon > kRoundingPerCell * s.cell_size)
+    problems.add(
+        body.mark, fmt::format("bodies.{}", body.name),
+        fmt::format("reaches {:g} m from the origin, where numbers of this precision are {:.2g} m apart: too "
+                    "coarse for cells of {:g} m; move the scene to the origin or set simulation.precision = "
+                    "\"double\"",
+                    far, far * epsilon, s.cell_size));
+}
+
+void plan_batches(const SceneDescription& scene, Plan& plan) {
+  for (const MaterialDescription& material : scene.materials) {
+    const ModelInfo& model = *find_model(material.model.text);
+    Material law = make_material(model.name, complete_values(model, material));
+    const double density = std::visit([](const auto& m) { return m.density; }, law);
+    plan.batches.push_back({material.name, std::string(model.name), density, law,
+                            transfer_columns(scene.simulation.transfer) | model.columns});
+  }
+}
+
+void plan_bodies(const SceneDescription& scene, Plan& plan, Problems& problems) {
+  const auto folder = scene.file.parent_path();
+  for (const BodyDescription& body : scene.bodies) {
+    BodyPlan out;
+    if (body.shape) {
+      out.shape = build_shape(*body.shape, folder, scene.simulation.cell_size / 2, plan.warnings, problems,
+                              fmt::format("bodies.{}.shape", body.name));
+      if (out.shape) check_distance_from_origin(scene.simulation, body, *out.shape, problems);
+    }
+    const auto named = std::find_if(scene.materials.begin(), scene.materials.end(),
+                                    [&](const auto& m) { return m.name == body.material.text; });
+    out.batch = static_cast<std::size_t>(named - scene.materials.begin());
+    plan.bodies.push_back(out);
+  }
+}
+
+void plan_effects(const SceneDescription& scene, Plan& plan, Problems& problems) {
+  if (scene.gravity) plan.effects.gravity = Gravity{*scene.gravity};
+  for (const ColliderDescription& c : scene.colliders) {
+    // Half a cell is what a node can tell apart.
+    ShapePtr shape = build_shape(c.shape, scene.file.parent_path(), scene.simulation.cell_size / 2,
+                                 plan.warnings, problems);
+    plan.effects.colliders.push_back({c.name, shape, c.contact, c.friction, motion(c.keyframes)});
+  }
+  if (scene.domain)
+    plan.effects.domain =
+        DomainWalls{scene.domain->min, scene.domain->max, scene.domain->contact, scene.domain->friction};
+}
+
+void plan_attributes(const SceneDescription& scene, Plan& plan, Problems& problems) {
+  for (const Name& name : scene.output.attributes) {
+    const auto* attribute = std::find_if(kAttributes.begin(), kAttributes.end(),
+                                         [&](const Attribute& a) { return a.name == name.text; });
+    const auto stored = [&](Column c) {
+      return std::any_of(plan.batches.begin(), plan.batches.end(),
+                         [&](const auto& b) { return b.columns.has(c); });
+    };
+    if ((name.text == "F_P" || name.text == "Jp") && !stored(Column::plastic_deformation))
+      problems.add(name.mark, "output.attributes",
+                   fmt::format("'{}' does not exist here: no material of this scene is plastic", name.text));
+    if (name.text == "C" && !stored(Column::affine))
+      problems.add(name.mark, "output.attributes",
+                   "'C' does not exist here: only simulation.transfer = \"apic\" stores it");
+    plan.attributes.push_back(attribute);
+  }
+}
+
+}  // namespace
+
+int Plan::frames() const {
+  // A duration that is a whole number of frames but for rounding keeps its last one.
+  return 1 + static_cast<int>(std::floor(scene.simulation.duration * scene.simulation.frame_rate + 1e-9));
+}
+
+Plan make_plan(SceneDescription scene) {
+  Plan plan;
+  Problems problems;
+  plan_batches(scene, plan);
+  plan_bodies(scene, plan, problems);
+  plan_effects(scene, plan, problems);
+  plan_attributes(scene, plan, problems);
+  problems.throw_if_any();
+  plan.scene = std::move(scene);
+  return plan;
+}
+
+}  // namespace firn

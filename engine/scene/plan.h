@@ -1,0 +1,46 @@
+// A scene resolved: every name looked up, every shape built, every column and effect known. Immutable from
+// here on; a user's mistake can only arise left of it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "engine/effects/grid_effects.h"
+#include "engine/scene/attributes.h"
+#include "engine/scene/description.h"
+#include "materials/registry.h"
+
+namespace firn {
+
+/// One body, ready to be seeded; the description with the same index says how.
+struct BodyPlan {
+  ShapePtr shape;  // null when the particles come from a file
+  std::size_t batch;
+};
+
+/// All particles of one material.
+struct BatchPlan {
+  std::string material;  // its name in the scene
+  std::string model;
+  double density;  // kg/m^3
+  Material law;
+  ColumnSet columns;
+};
+
+struct Plan {
+  SceneDescription scene;
+  std::vector<BatchPlan> batches;
+  std::vector<BodyPlan> bodies;
+  GridEffects effects;
+  std::vector<const Attribute*> attributes;  // beside P v id pscale
+  std::vector<std::string> warnings;
+
+  int dimension() const { return scene.simulation.dimension; }
+  double cell_size() const { return scene.simulation.cell_size; }
+  int frames() const;  // the first one included
+};
+
+/// Throws Error{input} with all problems found.
+Plan make_plan(SceneDescription scene);
+
+}  // namespace firn

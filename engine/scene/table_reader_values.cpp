@@ -1,0 +1,140 @@
+// The keys of fields.h whose values have a form of their own.
+#include "engine/base/nearest_name.h"
+#include "engine/scene/attributes.h"
+#include "engine/scene/shape_types.h"
+#include "engine/scene/table_reader.h"
+#include "materials/model_info.h"
+
+namespace firn {
+
+void TableReader::text(const Key& key, std::string& out) {
+  if (auto value = read_text(key, "a text in quotes")) out = std::move(value->text);
+}
+
+void TableReader::name(const Key& key, Name& out) {
+  if (auto value = read_text(key, "a name in quotes")) out = std::move(*value);
+}
+
+void TableReader::vector(const Key& key, Vec3& out, Axes axes) {
+  const std::string unit = key.unit == "-" ? "" : fmt::format(" ({})", key.unit);
+  const std::string allowed = "[x, y, z], three numbers" + unit;
+  const toml::node* node = find(key, allowed);
+  if (!node) return;
+  const toml::array* array = node->as_array();
+  if (!array || array->size() != 3) return refuse(key.name, *node, allowed);
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::string element = fmt::format("[{}]", axis);
+    const toml::node& number = (*array)[static_cast<std::size_t>(axis)];
+    const double value = number.value<double>().value_or(std::numeric_limits<double>::quiet_NaN());
+    if (!number.is_number() || !kAnyNumber.allows(value)) {
+      refuse(key.name, number, element, found_and_allowed(number, allowed_number(kAnyNumber, key.unit)));
+    } else if (value != 0 && !has_axis(axes, axis, context_.dimension.value_or(3))) {
+      refuse(
+          key.name, number, element,
+          found_and_allowed(number, fmt::format("0, for the scene has dimension {}", *context_.dimension)));
+    } else {
+      out[axis] = value;
+    }
+  }
+}
+
+void TableReader::attributes(const Key& key, std::vector<Name>& out) {
+  const toml::array* array = read_array(key, "an array of names of attributes", 0);
+  if (!array) return;
+  std::vector<std::string_view> known;
+  for (const Attribute& attribute : kAttributes) known.push_back(attribute.name);
+  for (std::size_t i = 0; i < array->size(); ++i) {
+    const toml::node& node = (*array)[i];
+    const std::string element = fmt::format("[{}]", i);
+    if (!node.is_string()) {
+      refuse(key.name, node, element, found_and_allowed(node, "the name of an attribute in quotes"));
+      continue;
+    }
+    const std::string& word = node.as_string()->get();
+    const auto twice = [&](const Name& name) { return name.text == word; };
+    if (std::find(kAlwaysWritten.begin(), kAlwaysWritten.end(), word) != kAlwaysWritten.end()) {
+      refuse(key.name, node, element, fmt::format("found '{}'; it is always written: leave it out", word));
+    } else if (std::find(known.begin(), known.end(), word) == known.end()) {
+      refuse(key.name, node, element, unknown_name("attribute", word, known));
+    } else if (std::any_of(out.begin(), out.end(), twice)) {
+      refuse(key.name, node, element, fmt::format("found '{}' a second time; allowed: once", word));
+    } else {
+      out.push_back({word, context_.report.mark(node.source())});
+    }
+  }
+}
+
+void TableReader::learn_every_model() {
+  for (const ModelInfo& model : models()) {
+    for (const Parameter& parameter : model.parameters) learn(parameter.name);
+  }
+}
+
+void TableReader::model(const Key& key, MaterialDescription& out) {
+  std::vector<std::string_view> names;
+  for (const ModelInfo& model : models()) names.push_back(model.name);
+  const auto index = read_word(key, names);
+  if (!index) return learn_every_model();
+  const ModelInfo& model = models()[*index];
+  out.model = {std::string(model.name), context_.report.mark(table_.get(key.name)->source())};
+  for (const Parameter& p : model.parameters) {
+    const Need need = p.required() ? Need::required : Need::optional;
+    std::optional<double> value;
+    real({p.name, need, p.meaning, p.unit}, value, Range::of(p));
+    if (value)
+      out.parameters[std::string(p.name)] = {*value, context_.report.mark(table_.get(p.name)->source())};
+  }
+}
+
+void TableReader::learn_every_shape() {
+  only_learn_ = true;
+  for (const ShapeType& type : kShapeTypes) {
+    ShapeDescription::Kind kind = type.make();
+    std::visit([&](auto& k) { fields(*this, k); }, kind);
+  }
+  only_learn_ = false;
+}
+
+void TableReader::kind(const Key& key, ShapeDescription::Kind& out) {
+  std::vector<std::string_view> words;
+  for (const ShapeType& type : kShapeTypes) words.push_back(type.word);
+  const auto index = read_word(key, words);
+  if (!index) return learn_every_shape();
+  out = kShapeTypes[*index].make();
+  std::visit([&](auto& kind) { fields(*this, kind); }, out);
+}
+
+void TableReader::shapes(const Key& key, std::vector<ShapeDescription>& out) {
+  read_list(key, "an array of shapes", 2, out);
+}
+
+void TableReader::materials(const Key& key, std::vector<MaterialDescription>& out) {
+  const toml::table* table = read_table(key);
+  if (!table) return;
+  struct Entry {
+    const toml::key* key;
+    const toml::node* node;
+  };
+  std::vector<Entry> entries;
+  for (const auto& [name, node] : *table) entries.push_back({&name, &node});
+  // In the order of the text (TOML's tables are sorted by name): it numbers the materials.
+  std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+    const auto place = [](const Entry& e) {
+      const toml::source_position at = e.key->source().begin;
+      return std::pair(at.line, at.column);
+    };
+    return place(a) < place(b);
+  });
+  for (const auto& [name, node] : entries) {
+    const std::string element = "." + printable(name->str());
+    MaterialDescription& material = out.emplace_back();
+    material.name = name->str();
+    if (!node->is_table()) {
+      refuse(key.name, *node, element, found_and_allowed(*node, "a table"));
+    } else if (!read_all(context_, *node->as_table(), below(key.name) + element, material)) {
+      bad_.emplace(key.name);
+    }
+  }
+}
+
+}  // namespace firn

@@ -1,0 +1,5 @@
+#include "engine/simulation/make_plain.inl"
+
+namespace firn {
+template std::unique_ptr<Simulation> make_plain<double, 2>(const Plan&, std::span<const Seeds>);
+}

@@ -1,0 +1,56 @@
+// A seeded scene that can be stepped and looked at. One implementation for every dimension, precision and
+// transfer scheme, chosen once from the plan.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string_view>
+
+#include "engine/particles/frame_view.h"
+#include "engine/scene/plan.h"
+#include "engine/scene/seeding.h"
+
+namespace firn {
+
+/// Seconds spent in each pass since the start.
+struct PassTimes {
+  enum Pass { sort, p2g, grid, g2p, material, count };
+  static constexpr std::array<std::string_view, count> names{"sort", "p2g", "grid", "g2p", "material"};
+  std::array<double, count> seconds{};
+};
+
+/// What a frame's counters count; `capped`: particle updates on which a cap of the material model acted.
+inline constexpr std::array<const char*, 1> kCounters{"capped"};
+
+class Simulation {
+ public:
+  virtual ~Simulation() = default;
+
+  /// The largest stable step from here, s: cfl h / (|v| + c), with the fastest particle or collider and the
+  /// fastest P-wave of the deformed, hardened material.
+  virtual double stable_dt() const = 0;
+
+  /// Advances by `dt`. Throws Error{numerics} naming a particle when the state is no longer finite; the state
+  /// before it is then lost, and frames already written are not touched.
+  virtual void step(double dt) = 0;
+
+  virtual double time() const = 0;
+  /// After the last step of a frame, the time it was meant to reach: sums of steps do not drift.
+  virtual void set_time(double time) = 0;
+
+  /// Particles, totals and counters as they stand; valid until the next step. The counters start again at
+  /// zero.
+  virtual FrameView view() = 0;
+
+  virtual std::size_t particles() const = 0;
+  /// Steps so far that sorted, blocks in use, bytes held by particles and grid.
+  virtual std::size_t sorts() const = 0;
+  virtual std::size_t blocks() const = 0;
+  virtual std::size_t bytes() const = 0;
+  virtual const PassTimes& times() const = 0;
+};
+
+/// `seeds`: one per body of the plan.
+std::unique_ptr<Simulation> make_simulation(const Plan& plan, std::span<const Seeds> seeds);
+
+}  // namespace firn

@@ -1,0 +1,38 @@
+// The pieces models describe themselves with.
+#pragma once
+
+#include "materials/model_info.h"
+#include "materials/parameter.h"
+
+namespace firn {
+
+inline constexpr double kRequired = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// The upper limits are far beyond any matter; they keep every product with them finite in float.
+constexpr Parameter density_parameter(double default_value = kRequired) {
+  return {"density", "kg/m^3", "mass per volume at rest", default_value, 0, 1e9, true};
+}
+constexpr Parameter youngs_modulus_parameter(double default_value = kRequired) {
+  return {"youngs_modulus", "Pa", "E: stiffness in a uniaxial pull", default_value, 0, 1e15, true};
+}
+constexpr Parameter poissons_ratio_parameter(double default_value = kRequired) {
+  return {
+      "poissons_ratio", "-", "nu: lateral contraction over extension", default_value, -1, 0.5, true, true};
+}
+
+/// The description of `Model`, from what its type says and the words given here.
+template <class Model>
+ModelInfo describe(std::string_view title, std::string_view source) {
+  return {Model::name,
+          title,
+          source,
+          Model::Energy::name,
+          Model::yield_name,
+          Model::hardening_name,
+          Model::decomposition,
+          Model::template Point<double, 3>::columns,
+          Model::parameters};
+}
+
+}  // namespace firn

@@ -1,0 +1,97 @@
+#include "engine/effects/contact.h"
+
+#include <catch2/catch.hpp>
+
+#include "engine/effects/grid_effects.h"
+
+using namespace firn;
+using V = Vector<double, 3>;
+
+namespace {
+
+struct HalfSpace final : Shape {
+  void distance(std::span<const Vec3> points, std::span<double> phi) const override {
+    for (std::size_t i = 0; i < points.size(); ++i) phi[i] = points[i].y();
+  }
+  Bounds bounds() const override {
+    const double far = std::numeric_limits<double>::infinity();
+    return {Vec3(-far, -far, -far), Vec3(far, 0, far)};
+  }
+};
+
+void check_equal(const V& a, const V& b) {
+  for (int d = 0; d < 3; ++d) CHECK(a[d] == Approx(b[d]).margin(1e-14));
+}
+
+}  // namespace
+
+TEST_CASE("each contact condition does to a velocity what its name says") {
+  const V normal{0, 1, 0}, wall{0.5, 0, 0}, in{2, -1, 0}, out{2, 1, 0};
+  check_equal(contact_velocity(Contact::sticky, 0.0, in, wall, normal), wall);
+  check_equal(contact_velocity(Contact::slip, 0.0, in, wall, normal), {2, 0, 0});
+  check_equal(contact_velocity(Contact::slip, 0.0, out, wall, normal), {2, 0, 0});
+  check_equal(contact_velocity(Contact::separating, 0.0, in, wall, normal), {2, 0, 0});
+  check_equal(contact_velocity(Contact::separating, 0.0, out, wall, normal), out);
+}
+
+TEST_CASE("Coulomb friction takes friction times the normal change, and never reverses a slide") {
+  const V normal{0, 1, 0}, still{0, 0, 0};
+  check_equal(contact_velocity(Contact::separating, 0.5, V{2, -1, 0}, still, normal), {1.5, 0, 0});
+  check_equal(contact_velocity(Contact::separating, 0.5, V{0.3, -1, 0.1}, still, normal), still);
+  check_equal(contact_velocity(Contact::separating, 0.5, V{2, 1, 0}, still, normal), {2, 1, 0});
+  // Seen from a moving wall it is the same.
+  const V wall{0, 3, 4};
+  check_equal(contact_velocity(Contact::separating, 0.5, V{2, 2, 4}, wall, normal), V{1.5, 3, 4});
+}
+
+TEST_CASE("a node without a way out sticks") {
+  check_equal(contact_velocity(Contact::slip, 0.0, V{1, 2, 3}, V{4, 5, 6}, V{0, 0, 0}), {4, 5, 6});
+}
+
+TEST_CASE("a posed collider acts on the nodes inside it and on no others") {
+  const Collider ground{"ground", std::make_shared<HalfSpace>(), Contact::sticky, 0, {}};
+  const PosedCollider posed(ground, 0);
+  std::array<Node<double, 3>, kBlockNodes<3>> nodes;
+  for (auto& n : nodes) n = {V{1, -1, 0}, 1.0};
+  nodes[0].m = 0;                                           // not in use
+  BlockNodes<double, 3> block{nodes, {}, {0, -1, 0}, 0.1};  // y from -0.4 to -0.1
+  posed.apply(block, 0.01);
+  check_equal(nodes[0].v, {1, -1, 0});
+  for (std::size_t n = 1; n < nodes.size(); ++n) check_equal(nodes[n].v, {0, 0, 0});
+
+  for (auto& n : nodes) n = {V{1, -1, 0}, 1.0};
+  block.block = {0, 0, 0};  // y from 0 to 0.3: only the first layer lies in it
+  posed.apply(block, 0.01);
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    check_equal(nodes[n].v, block.position(n).y() <= 0 ? V{0, 0, 0} : V{1, -1, 0});
+}
+
+TEST_CASE("a turned collider pushes along its turned normal") {
+  const double half = std::sqrt(0.5);
+  RigidMotion turned(
+      {{0, Vec3::Zero(), Eigen::Quaterniond(half, 0, 0, half)}});  // 90 degrees about z: solid where x > 0
+  const Collider wall{"wall", std::make_shared<HalfSpace>(), Contact::separating, 0, turned};
+  std::array<Node<double, 3>, kBlockNodes<3>> nodes;
+  for (auto& n : nodes) n = {V{2, 1, 0}, 1.0};
+  BlockNodes<double, 3> block{nodes, {}, {1, 0, 0}, 0.1};
+  PosedCollider(wall, 0).apply(block, 0.01);
+  for (const auto& n : nodes) check_equal(n.v, {0, 1, 0});
+}
+
+TEST_CASE("domain walls stop what leaves and let go of what returns") {
+  const DomainWalls box{Vec3(0, 0, 0), Vec3(1, 1, 1), Contact::separating, 0};
+  std::array<Node<double, 3>, kBlockNodes<3>> nodes;
+  for (auto& n : nodes) n = {V{-1, 2, -3}, 1.0};
+  BlockNodes<double, 3> block{nodes, {}, {-1, 0, 2}, 0.1};  // x < 0, y from 0, z from 0.8 to 1.1
+  box.apply(block, 0.01);
+  for (std::size_t n = 0; n < nodes.size(); ++n) check_equal(nodes[n].v, {0, 2, -3});
+}
+
+TEST_CASE("domain walls leave a 2D scene alone that does not reach them, whatever their depth") {
+  const DomainWalls box{Vec3(0, 0, 0), Vec3(1, 1, 0), Contact::sticky, 0};
+  std::array<Node<double, 2>, kBlockNodes<2>> nodes;
+  for (auto& n : nodes) n = {{1.0, 1.0}, 1.0};
+  BlockNodes<double, 2> block{nodes, {}, {1, 1}, 0.1};
+  box.apply(block, 0.01);
+  for (const auto& n : nodes) CHECK(n.v[0] == 1.0);
+}

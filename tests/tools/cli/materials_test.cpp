@@ -1,0 +1,43 @@
+#include "tools/cli/materials.h"
+
+#include <sstream>
+
+#include <catch2/catch.hpp>
+
+#include "engine/base/error.h"
+#include "materials/model_info.h"
+
+using namespace firn;
+
+TEST_CASE("firn materials shows every model, parameter, unit, range, default and source", "[materials]") {
+  std::ostringstream all, one, markdown;
+  CHECK(run_materials("", all) == 0);
+  CHECK(run_materials("snow_stomakhin_2013", one) == 0);
+  CHECK(run_materials_markdown(markdown) == 0);
+  for (const ModelInfo& m : models()) {
+    CHECK(all.str().find(m.name) != std::string::npos);
+    CHECK(all.str().find(m.source) != std::string::npos);
+    CHECK(markdown.str().find(m.name) != std::string::npos);
+    for (const Parameter& p : m.parameters) {
+      CHECK(all.str().find(p.meaning) != std::string::npos);
+      CHECK(all.str().find(p.range()) != std::string::npos);
+      CHECK(markdown.str().find(p.name) != std::string::npos);
+    }
+  }
+  CHECK(one.str().find("theta_c         -       0.025") != std::string::npos);
+  CHECK(one.str().find("neo_hookean") == std::string::npos);
+}
+
+TEST_CASE("firn materials names the nearest model", "[materials]") {
+  std::ostringstream out;
+  try {
+    run_materials("stvk_henky", out);
+    FAIL("accepted");
+  } catch (const Error& e) {
+    CHECK(e.code() == ExitCode::input);
+    CHECK(std::string(e.what()) ==
+          "unknown model 'stvk_henky'; did you mean 'stvk_hencky'? known: neo_hookean, fixed_corotated, "
+          "stvk_hencky, "
+          "snow_stomakhin_2013");
+  }
+}

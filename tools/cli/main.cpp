@@ -1,0 +1,134 @@
+// The command line. Each subcommand is a file of its own; this one only names their options.
+
+#include <fstream>
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+
+#include "engine/base/error.h"
+#include "engine/output/posix_file.h"
+#include "tools/cli/element.h"
+#include "tools/cli/materials.h"
+#include "tools/cli/memory.h"
+#include "tools/cli/plan.h"
+#include "tools/cli/run.h"
+#include "tools/cli/schema.h"
+#include "tools/cli/version.h"
+
+namespace {
+
+using Action = std::function<int()>;
+
+CLI::App* add(CLI::App& app, const char* name, const char* what, const char* example) {
+  CLI::App* command = app.add_subcommand(name, what);
+  command->footer(std::string("Example:\n  ") + example);
+  return command;
+}
+
+void add_overrides(CLI::App* command, std::vector<std::string>& overrides) {
+  // One value a flag: the scene's name may follow.
+  command->add_option("--set", overrides, "Replace a value of the scene, as in --set simulation.cfl=0.2")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
+void add_run(CLI::App& app, Action& action) {
+  auto options = std::make_shared<firn::RunOptions>();
+  auto memory = std::make_shared<std::string>();
+  CLI::App* c = add(app, "run", "Simulate a scene and write its caches",
+                    "firn run scenes/snowball.toml --out out/snowball --set simulation.cell_size=0.01");
+  c->add_option("scene", options->scene, "The scene file")->required();
+  c->add_option("--out", options->out, "Folder for the caches; out/NAME if left out");
+  add_overrides(c, options->overrides);
+  c->add_option("--frames", options->frames, "Write only frames A to B and end after B; frame 1 is t = 0")
+      ->type_name("A:B");
+  c->add_option("--threads", options->threads, "Threads; all cores if left out")->check(CLI::Range(1, 1024));
+  c->add_option("--max-memory", *memory, "Refuse to start if it would need more, as in 8G")
+      ->type_name("SIZE");
+  c->add_flag("--overwrite", options->overwrite, "Replace the frames of an earlier run in the same folder");
+  c->callback([=, &action] {
+    action = [=] {
+      if (!memory->empty()) options->max_memory = firn::parse_bytes(*memory);
+      return firn::run_scene(*options);
+    };
+  });
+}
+
+void add_plan(CLI::App& app, Action& action) {
+  auto scene = std::make_shared<std::filesystem::path>();
+  auto overrides = std::make_shared<std::vector<std::string>>();
+  auto json = std::make_shared<bool>(false);
+  CLI::App* c = add(app, "plan", "Show what a scene would simulate and cost, without running it",
+                    "firn plan scenes/snowball.toml");
+  c->add_option("scene", *scene, "The scene file")->required();
+  add_overrides(c, *overrides);
+  c->add_flag("--json", *json, "As JSON");
+  c->callback(
+      [=, &action] { action = [=] { return firn::run_plan(*scene, *overrides, *json, std::cout); }; });
+}
+
+void add_element(CLI::App& app, Action& action) {
+  CLI::App* c = add(app, "element", "Drive single material points: JSON lines in, JSON lines out",
+                    "echo "
+                    "'{\"id\":\"a\",\"dimension\":2,\"dt\":1e-3,\"material\":{\"model\":\"neo_hookean\","
+                    "\"mu\":1,\"lam\":1},"
+                    "\"F_trial\":[[1.1,0],[0,1]]}' | firn element");
+  c->callback([&action] { action = [] { return firn::run_element(std::cin, std::cout); }; });
+}
+
+void add_materials(CLI::App& app, Action& action) {
+  auto name = std::make_shared<std::string>();
+  auto markdown = std::make_shared<bool>(false);
+  CLI::App* c = add(app, "materials", "The material models: parameters, units, ranges, defaults, sources",
+                    "firn materials snow_stomakhin_2013");
+  c->add_option("name", *name, "One model in detail");
+  c->add_flag("--markdown", *markdown, "The README's table");
+  c->callback([=, &action] {
+    action = [=] {
+      return *markdown ? firn::run_materials_markdown(std::cout) : firn::run_materials(*name, std::cout);
+    };
+  });
+}
+
+void add_schema(CLI::App& app, Action& action) {
+  auto example = std::make_shared<bool>(false);
+  CLI::App* c =
+      add(app, "schema", "The scene format as a JSON Schema", "firn schema --example > my_scene.toml");
+  c->add_flag("--example", *example, "A commented scene with every key instead");
+  c->callback([=, &action] { action = [=] { return firn::run_schema(*example, std::cout); }; });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  firn::ignore_file_size_signals();
+  CLI::App app("Firn: snow and plasticity by the material point method", "firn");
+  app.set_version_flag("--version", std::string("firn ") + firn::kVersion);
+  app.require_subcommand(1);
+  Action action;
+  add_run(app, action);
+  add_plan(app, action);
+  add_element(app, action);
+  add_materials(app, action);
+  add_schema(app, action);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    app.exit(error);
+    return static_cast<int>(firn::ExitCode::input);
+  }
+  try {
+    const int code = action();
+    std::cout.flush();
+    if (!std::cout) throw firn::Error(firn::ExitCode::io, "could not write to standard output");
+    return code;
+  } catch (const firn::Error& error) {
+    std::cerr << error.what() << '\n';
+    return static_cast<int>(error.code());
+  } catch (const std::bad_alloc&) {
+    std::cerr << "out of memory\n";
+    return static_cast<int>(firn::ExitCode::resources);
+  }
+}

@@ -1,0 +1,91 @@
+#include "tools/cli/materials.h"
+
+#include <algorithm>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "engine/base/error.h"
+#include "engine/base/nearest_name.h"
+#include "materials/model_info.h"
+
+namespace firn {
+namespace {
+
+std::string default_of(const Parameter& p) {
+  return p.required() ? "required" : fmt::format("{:g}", p.default_value);
+}
+
+std::string columns_of(const ModelInfo& m) {
+  std::vector<std::string_view> symbols;
+  for (int c = 0; c < kColumnCount; ++c)
+    if (m.columns.has(static_cast<Column>(c))) symbols.push_back(info(static_cast<Column>(c)).symbol);
+  return fmt::format("{}", fmt::join(symbols, ", "));
+}
+
+std::string parts_of(const ModelInfo& m) {
+  std::string out{m.energy};
+  if (m.yield != "none") out += fmt::format(" + {}", m.yield);
+  if (m.hardening != "none") out += fmt::format(" + {} hardening", m.hardening);
+  return out;
+}
+
+// Cells padded to the widest of their column, two spaces apart; the last column runs free.
+void print_table(const std::vector<std::vector<std::string>>& rows, std::ostream& out) {
+  std::vector<std::size_t> width(rows.front().size());
+  for (const auto& row : rows)
+    for (std::size_t c = 0; c < row.size(); ++c) width[c] = std::max(width[c], row[c].size());
+  for (const auto& row : rows) {
+    std::string line = "  ";
+    for (std::size_t c = 0; c + 1 < row.size(); ++c) line += fmt::format("{:<{}}  ", row[c], width[c]);
+    out << line << row.back() << '\n';
+  }
+}
+
+void print_model(const ModelInfo& m, std::ostream& out) {
+  out << fmt::format("{}\n  {}\n", m.name, m.title);
+  print_table({{"source", std::string(m.source)},
+               {"parts", parts_of(m)},
+               {"columns", columns_of(m)},
+               {"decomposition per update", std::string(m.decomposition)}},
+              out);
+  std::vector<std::vector<std::string>> rows = {{"parameter", "unit", "default", "allowed", "meaning"}};
+  for (const Parameter& p : m.parameters)
+    rows.push_back(
+        {std::string(p.name), std::string(p.unit), default_of(p), p.range(), std::string(p.meaning)});
+  print_table(rows, out);
+}
+
+}  // namespace
+
+int run_materials(const std::string& name, std::ostream& out) {
+  if (!name.empty()) {
+    const ModelInfo* m = find_model(name);
+    std::vector<std::string_view> known;
+    for (const ModelInfo& other : models()) known.push_back(other.name);
+    if (!m) throw Error(ExitCode::input, unknown_name("model", name, known));
+    print_model(*m, out);
+    return static_cast<int>(ExitCode::ok);
+  }
+  for (const ModelInfo& m : models()) {
+    if (&m != &models().front()) out << '\n';
+    print_model(m, out);
+  }
+  return static_cast<int>(ExitCode::ok);
+}
+
+int run_materials_markdown(std::ostream& out) {
+  out << "| model | what it is | source | parts | columns | parameters (default) "
+         "|\n|---|---|---|---|---|---|\n";
+  for (const ModelInfo& m : models()) {
+    std::vector<std::string> parameters;
+    for (const Parameter& p : m.parameters)
+      parameters.push_back(fmt::format("`{}` ({})", p.name, default_of(p)));
+    out << fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", m.name, m.title, m.source, parts_of(m),
+                       columns_of(m), fmt::join(parameters, ", "));
+  }
+  return static_cast<int>(ExitCode::ok);
+}
+
+}  // namespace firn

@@ -1,0 +1,5 @@
+#pragma once
+
+namespace firn {
+inline constexpr char kVersion[] = FIRN_VERSION;
+}
