@@ -76,6 +76,13 @@ TEST_CASE("a run that is asked to stop does so before the next step") {
   CHECK(steps == 3);
 }
 
+TEST_CASE("a time step too small for the frame to ever end stops the run with the reason") {
+  Simulated run(kBlock, {"bodies.block.velocity=[1e9,0,0]"});
+  CHECK_THROWS_WITH(run_frames(
+                        *run.simulation, 10, 1, 6, {}, [](int, double, double) {}, never),
+                    Catch::Contains("the stable time step has fallen to"));
+}
+
 TEST_CASE("the stable step follows cfl h / (|v| + c)") {
   Simulated run(kBlock);
   const double lambda = 1e4 * 0.3 / (1.3 * 0.4), mu = 1e4 / 2.6;
