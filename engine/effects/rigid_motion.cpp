@@ -4,16 +4,29 @@
 
 namespace firn {
 
-RigidPose RigidMotion::between(const Key& a, const Key& b, double time) const {
+namespace {
+
+Eigen::Quaterniond orientation(const Vec3& angles) {
+  return Eigen::AngleAxisd(angles.z(), Vec3::UnitZ()) * Eigen::AngleAxisd(angles.y(), Vec3::UnitY()) *
+         Eigen::AngleAxisd(angles.x(), Vec3::UnitX());
+}
+
+/// Each angle turns about an axis that the later ones carry along.
+Vec3 angular_velocity(const Vec3& angles, const Vec3& rate) {
+  const Eigen::AngleAxisd z(angles.z(), Vec3::UnitZ()), y(angles.y(), Vec3::UnitY());
+  return rate.z() * Vec3::UnitZ() + rate.y() * (z * Vec3::UnitY()) + rate.x() * (z * (y * Vec3::UnitX()));
+}
+
+}  // namespace
+
+RigidPose RigidMotion::between(const Key& a, const Key& b, double time) {
   const double span = b.time - a.time, s = (time - a.time) / span;
+  const Vec3 angles = (1 - s) * a.angles + s * b.angles;
   RigidPose pose;
   pose.position = (1 - s) * a.position + s * b.position;
-  pose.rotation = a.rotation.slerp(s, b.rotation);
+  pose.rotation = orientation(angles);
   pose.velocity = (b.position - a.position) / span;
-  Eigen::Quaterniond turn = b.rotation * a.rotation.conjugate();
-  if (turn.w() < 0) turn.coeffs() *= -1;  // the shortest arc, as slerp takes it
-  const Eigen::AngleAxisd arc(turn);
-  pose.angular_velocity = arc.axis() * (arc.angle() / span);
+  pose.angular_velocity = angular_velocity(angles, (b.angles - a.angles) / span);
   return pose;
 }
 
@@ -25,7 +38,7 @@ RigidPose RigidMotion::at(double time) const {
     const Key& key = next == keys_.begin() ? keys_.front() : keys_.back();
     RigidPose pose;
     pose.position = key.position;
-    pose.rotation = key.rotation;
+    pose.rotation = orientation(key.angles);
     return pose;
   }
   return between(*(next - 1), *next, time);
@@ -34,8 +47,9 @@ RigidPose RigidMotion::at(double time) const {
 double RigidMotion::max_speed(double radius) const {
   double speed = 0;
   for (std::size_t k = 1; k < keys_.size(); ++k) {
-    const RigidPose pose = between(keys_[k - 1], keys_[k], keys_[k - 1].time);
-    speed = std::max(speed, pose.velocity.norm() + radius * pose.angular_velocity.norm());
+    const Key &a = keys_[k - 1], &b = keys_[k];
+    const double turning = (b.angles - a.angles).lpNorm<1>();  // the axes may come to agree
+    speed = std::max(speed, ((b.position - a.position).norm() + radius * turning) / (b.time - a.time));
   }
   return speed;
 }

@@ -1,5 +1,6 @@
-// Where a collider is at a given time: key frames of position and rotation, linear in position and along the
-// shortest arc in rotation between them, at rest before the first and after the last.
+// Where a collider is at a given time: key frames of position and of three angles, all linear in time between
+// them, at rest before the first and after the last. Angles, not orientations, so that a key of 720 degrees
+// is two turns.
 #pragma once
 
 #include <vector>
@@ -25,18 +26,18 @@ class RigidMotion {
   struct Key {
     double time;  // s, strictly increasing
     Vec3 position;
-    Eigen::Quaterniond rotation;
+    Vec3 angles;  // radians about x, then y, then z
   };
 
   RigidMotion() = default;  // at rest at the origin
   explicit RigidMotion(std::vector<Key> keys) : keys_(std::move(keys)) {}
 
   RigidPose at(double time) const;
-  /// The largest speed a point within `radius` of the shape's origin ever has, m/s.
+  /// A bound on the speed that a point within `radius` of the shape's origin ever has, m/s.
   double max_speed(double radius) const;
 
  private:
-  RigidPose between(const Key& a, const Key& b, double time) const;
+  static RigidPose between(const Key& a, const Key& b, double time);
 
   std::vector<Key> keys_;
 };

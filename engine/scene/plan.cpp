@@ -36,15 +36,10 @@ ParameterValues complete_values(const ModelInfo& model, const MaterialDescriptio
   return values;
 }
 
-Eigen::Quaterniond rotation(const Vec3& degrees) {
-  const Vec3 r = degrees * (std::numbers::pi / 180);
-  return Eigen::AngleAxisd(r.z(), Vec3::UnitZ()) * Eigen::AngleAxisd(r.y(), Vec3::UnitY()) *
-         Eigen::AngleAxisd(r.x(), Vec3::UnitX());
-}
-
 RigidMotion motion(const std::vector<KeyFrame>& frames) {
   std::vector<RigidMotion::Key> keys;
-  for (const KeyFrame& f : frames) keys.push_back({f.time, f.position, rotation(f.rotation)});
+  for (const KeyFrame& f : frames)
+    keys.push_back({f.time, f.position, f.rotation * (std::numbers::pi / 180)});
   return RigidMotion(std::move(keys));
 }
 

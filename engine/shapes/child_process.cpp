@@ -25,6 +25,13 @@ enum ChildExit : int { kAnswered = 0, kRefused = 10, kOutOfMemory = 11 };
 
 constexpr std::size_t kLongestMessage = 1000;
 
+// Sanitizers map terabytes that they never touch: no limit on address space means anything then.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kShadowMemory = true;
+#else
+constexpr bool kShadowMemory = false;
+#endif
+
 void set_limit(int resource, rlim_t soft, rlim_t hard) {
   const rlimit limit{soft, hard};
   ::setrlimit(static_cast<__rlimit_resource_t>(resource), &limit);
@@ -55,10 +62,10 @@ void confine(const ChildLimits& limits) {
   set_limit(RLIMIT_CORE, 0, 0);
   set_limit(RLIMIT_FSIZE, 0, 0);
   set_limit(RLIMIT_CPU, limits.cpu_seconds, limits.cpu_seconds + 1);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-  const std::uint64_t space = mapped_bytes() + limits.memory;
-  set_limit(RLIMIT_AS, space, space);
-#endif
+  if (!kShadowMemory) {
+    const std::uint64_t space = mapped_bytes() + limits.memory;
+    set_limit(RLIMIT_AS, space, space);
+  }
   if (!limits.opens_files) set_limit(RLIMIT_NOFILE, 0, 0);
 }
 

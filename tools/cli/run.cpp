@@ -21,6 +21,7 @@
 #include "engine/output/progress.h"
 #include "engine/scene/estimate.h"
 #include "engine/scene/reader.h"
+#include "engine/scene/seed_check.h"
 #include "engine/simulation/run.h"
 #include "tools/cli/memory.h"
 #include "tools/cli/plan.h"
@@ -77,13 +78,14 @@ void check_memory(const Estimate& e, std::uint64_t limit) {
                   std::cbrt(e.peak_bytes / available)));
 }
 
-std::vector<Seeds> seed(const Plan& plan, std::vector<std::string>& warnings) {
+std::unique_ptr<Simulation> seeded_simulation(const Plan& plan, std::vector<std::string>& warnings) {
   std::vector<Seeds> seeds;
   const SimulationDescription& s = plan.scene.simulation;
   for (std::size_t b = 0; b < plan.bodies.size(); ++b)
     seeds.push_back(seed_body(plan.scene.bodies[b], plan.bodies[b].shape.get(), s.dimension, s.cell_size,
                               s.seed, b, plan.scene.file.parent_path(), warnings));
-  return seeds;
+  for (std::string& warning : check_seeds(plan, seeds)) warnings.push_back(std::move(warning));
+  return make_simulation(plan, seeds);
 }
 
 int terminal_columns() {
@@ -147,7 +149,7 @@ int run_scene(const RunOptions& options) {
   if (!folder.warning().empty()) warnings.push_back(folder.warning());
 
   const Clock::time_point seeding = Clock::now();
-  const std::unique_ptr<Simulation> simulation = make_simulation(plan, seed(plan, warnings));
+  const std::unique_ptr<Simulation> simulation = seeded_simulation(plan, warnings);
   account.seeding_seconds = seconds_since(seeding);
   for (const std::string& warning : warnings) std::cerr << "warning: " << warning << '\n';
 

@@ -1,5 +1,7 @@
 #include "engine/effects/contact.h"
 
+#include <numbers>
+
 #include <catch2/catch.hpp>
 
 #include "engine/effects/grid_effects.h"
@@ -67,9 +69,7 @@ TEST_CASE("a posed collider acts on the nodes inside it and on no others") {
 }
 
 TEST_CASE("a turned collider pushes along its turned normal") {
-  const double half = std::sqrt(0.5);
-  RigidMotion turned(
-      {{0, Vec3::Zero(), Eigen::Quaterniond(half, 0, 0, half)}});  // 90 degrees about z: solid where x > 0
+  RigidMotion turned({{0, Vec3::Zero(), Vec3(0, 0, std::numbers::pi / 2)}});  // solid where x > 0
   const Collider wall{"wall", std::make_shared<HalfSpace>(), Contact::separating, 0, turned};
   std::array<Node<double, 3>, kBlockNodes<3>> nodes;
   for (auto& n : nodes) n = {V{2, 1, 0}, 1.0};

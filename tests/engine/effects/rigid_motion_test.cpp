@@ -8,13 +8,12 @@ using namespace firn;
 
 namespace {
 
-Eigen::Quaterniond about_z(double degrees) {
-  return Eigen::Quaterniond(Eigen::AngleAxisd(degrees * std::numbers::pi / 180, Vec3::UnitZ()));
-}
+constexpr double kDegree = std::numbers::pi / 180;
 
 RigidMotion sweep() {
-  return RigidMotion(
-      {{1, Vec3(0, 0, 0), about_z(0)}, {3, Vec3(4, 0, 0), about_z(90)}, {4, Vec3(4, 2, 0), about_z(90)}});
+  return RigidMotion({{1, Vec3(0, 0, 0), Vec3::Zero()},
+                      {3, Vec3(4, 0, 0), kDegree * Vec3(20, -50, 90)},
+                      {4, Vec3(4, 2, 0), kDegree * Vec3(20, -50, 90)}});
 }
 
 }  // namespace
@@ -50,7 +49,13 @@ TEST_CASE("velocity is the rate of what the pose does, at every time") {
 TEST_CASE("the greatest speed bounds every point's speed") {
   const RigidMotion motion = sweep();
   const double bound = motion.max_speed(1.0);
-  CHECK(bound == Approx(2 + std::numbers::pi / 4));
+  CHECK(bound == Approx(2 + 160 * kDegree / 2));
   for (double t = 0; t < 5; t += 0.1)
     CHECK(motion.at(t).velocity_at(motion.at(t).position + Vec3(0, 1, 0)).norm() <= bound);
+}
+
+TEST_CASE("a key frame of a whole turn is a turn") {
+  const RigidMotion turn({{0, Vec3::Zero(), Vec3::Zero()}, {2, Vec3::Zero(), Vec3(0, 0, 360 * kDegree)}});
+  CHECK(turn.at(0.5).angular_velocity.z() == Approx(std::numbers::pi));
+  CHECK((turn.at(0.5).rotation * Vec3::UnitX() - Vec3::UnitY()).norm() < 1e-15);
 }

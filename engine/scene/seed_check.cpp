@@ -1,0 +1,48 @@
+#include "engine/scene/seed_check.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace firn {
+namespace {
+
+std::size_t count_inside(const Collider& collider, const std::vector<Vec3>& points) {
+  const RigidPose pose = collider.motion.at(0);
+  std::vector<Vec3> local(points.size());
+  std::vector<double> phi(points.size());
+  std::transform(points.begin(), points.end(), local.begin(),
+                 [&](const Vec3& x) { return pose.to_local(x); });
+  collider.shape->distance(local, phi);
+  return static_cast<std::size_t>(std::count_if(phi.begin(), phi.end(), [](double d) { return d < 0; }));
+}
+
+std::size_t count_outside(const DomainWalls& domain, int dimension, const std::vector<Vec3>& points) {
+  return static_cast<std::size_t>(std::count_if(points.begin(), points.end(), [&](const Vec3& x) {
+    for (int d = 0; d < dimension; ++d)
+      if (x[d] < domain.min[d] || x[d] > domain.max[d]) return true;
+    return false;
+  }));
+}
+
+}  // namespace
+
+std::vector<std::string> check_seeds(const Plan& plan, std::span<const Seeds> seeds) {
+  std::vector<std::string> warnings;
+  const auto warn = [&](std::size_t body, std::size_t count, const std::string& where) {
+    if (count == 0) return;
+    const std::size_t all = seeds[body].position.size();
+    warnings.push_back(fmt::format("body '{}' starts with {} of its {} particles ({:.2g} %) {}",
+                                   plan.scene.bodies[body].name, count, all,
+                                   100.0 * static_cast<double>(count) / static_cast<double>(all), where));
+  };
+  for (std::size_t b = 0; b < seeds.size(); ++b) {
+    for (const Collider& collider : plan.effects.colliders)
+      warn(b, count_inside(collider, seeds[b].position), fmt::format("inside collider '{}'", collider.name));
+    if (plan.effects.domain)
+      warn(b, count_outside(*plan.effects.domain, plan.dimension(), seeds[b].position), "outside the domain");
+  }
+  return warnings;
+}
+
+}  // namespace firn

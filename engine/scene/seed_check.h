@@ -1,0 +1,18 @@
+// What is doubtful about where particles start.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/scene/plan.h"
+#include "engine/scene/seeding.h"
+
+namespace firn {
+
+/// A sentence for each body that starts partly inside a collider or outside the domain, with how much of it:
+/// there its particles take on the wall's velocity at the first step, and what is squeezed may burst.
+/// `seeds`: one per body.
+std::vector<std::string> check_seeds(const Plan& plan, std::span<const Seeds> seeds);
+
+}  // namespace firn
