@@ -22,6 +22,15 @@ PosedCollider::PosedCollider(const Collider& collider, double time)
       pose_(collider.motion.at(time)),
       bounds_(moved(collider.shape->bounds(), pose_)) {}
 
+bool PosedCollider::may_touch(const Vec3& low, const Vec3& high) const {
+  if ((low.array() > bounds_.max.array()).any() || (high.array() < bounds_.min.array()).any()) return false;
+  const Vec3 centre = pose_.to_local((low + high) / 2);
+  double phi = 0;
+  collider_->shape->distance({&centre, 1}, {&phi, 1});
+  // A distance is never more than the true one, so nothing nearer than it can be inside.
+  return phi <= (high - low).norm() / 2;
+}
+
 Vec3 PosedCollider::outward(const Vec3& local, double h) const {
   const double e = 0.05 * h;  // well inside a cell, well above rounding
   std::array<Vec3, 6> points;

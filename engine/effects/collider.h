@@ -45,9 +45,8 @@ class PosedCollider {
   }
 
  private:
-  bool may_touch(const Vec3& low, const Vec3& high) const {
-    return (low.array() <= bounds_.max.array()).all() && (high.array() >= bounds_.min.array()).all();
-  }
+  /// Whether the box from `low` to `high` may hold a point of the collider: by bounds, then by one distance.
+  bool may_touch(const Vec3& low, const Vec3& high) const;
 
   /// Gradient of the distance, unit or zero, in world axes.
   Vec3 outward(const Vec3& local, double h) const;

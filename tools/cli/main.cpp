@@ -1,11 +1,14 @@
 // The command line. Each subcommand is a file of its own; this one only names their options.
 
-#include <fstream>
+#include <algorithm>
+#include <functional>
 #include <iostream>
+#include <memory>
 
 #include <CLI/CLI.hpp>
 
 #include "engine/base/error.h"
+#include "engine/base/nearest_name.h"
 #include "engine/output/posix_file.h"
 #include "tools/cli/element.h"
 #include "tools/cli/materials.h"
@@ -98,19 +101,24 @@ void add_schema(CLI::App& app, Action& action) {
   c->callback([=, &action] { action = [=] { return firn::run_schema(*example, std::cout); }; });
 }
 
-}  // namespace
+/// CLI11 would only say that a subcommand is missing.
+void check_command(const CLI::App& app, const std::string& word) {
+  if (word.empty() || word[0] == '-') return;
+  const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
+  std::vector<std::string_view> names;
+  for (const CLI::App* command : commands) names.push_back(command->get_name());
+  if (std::find(names.begin(), names.end(), word) == names.end())
+    throw firn::Error(firn::ExitCode::input, firn::unknown_name("command", word, names));
+}
 
-int main(int argc, char** argv) {
-  firn::ignore_file_size_signals();
-  CLI::App app("Firn: snow and plasticity by the material point method", "firn");
-  app.set_version_flag("--version", std::string("firn ") + firn::kVersion);
-  app.require_subcommand(1);
+int run(CLI::App& app, int argc, char** argv) {
   Action action;
   add_run(app, action);
   add_plan(app, action);
   add_element(app, action);
   add_materials(app, action);
   add_schema(app, action);
+  if (argc > 1) check_command(app, argv[1]);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& success) {
@@ -119,11 +127,21 @@ int main(int argc, char** argv) {
     app.exit(error);
     return static_cast<int>(firn::ExitCode::input);
   }
+  const int code = action();
+  std::cout.flush();
+  if (!std::cout) throw firn::Error(firn::ExitCode::io, "could not write to standard output");
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  firn::ignore_file_size_signals();
+  CLI::App app("Firn: snow and plasticity by the material point method", "firn");
+  app.set_version_flag("--version", std::string("firn ") + firn::kVersion);
+  app.require_subcommand(1);
   try {
-    const int code = action();
-    std::cout.flush();
-    if (!std::cout) throw firn::Error(firn::ExitCode::io, "could not write to standard output");
-    return code;
+    return run(app, argc, argv);
   } catch (const firn::Error& error) {
     std::cerr << error.what() << '\n';
     return static_cast<int>(error.code());
