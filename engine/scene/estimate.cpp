@@ -72,14 +72,14 @@ constexpr double kAttributeComponentBytes = 3.6;
 }  // namespace
 
 PlainCost plain_cost(int dimension, Precision precision) {
-  const double wide = precision == Precision::double_ ? 1.15 : 1.0;
+  const double wide = precision == Precision::double_ ? 1.1 : 1.0;
   switch (dimension) {
     case 1:
-      return {60 * wide, 15 * wide, 15 * wide};
+      return {12 * wide, 6 * wide, 17 * wide};
     case 2:
-      return {130 * wide, 25 * wide, 60 * wide};
+      return {95 * wide, 12 * wide, 122 * wide};
     default:
-      return {430 * wide, 50 * wide, 330 * wide};
+      return {480 * wide, 25 * wide, 455 * wide};
   }
 }
 

@@ -22,9 +22,9 @@ struct Estimate {
   double core_seconds = 0;  // of all steps on one core, from the costs below
 };
 
-/// Nanoseconds per particle and step of the plain path on one core, by what the material has to compute.
-/// Measured with scenes/snowball.toml and scenes/elastic_cubes.toml on an AMD EPYC (Zen 4) at 2.6 GHz; other
-/// machines differ.
+/// Core nanoseconds per particle and step of the plain path, by what the material has to compute: the passes'
+/// seconds in run.json times the cores. Measured on both cores of an AMD EPYC (Zen 4) at 2.6 GHz with
+/// scenes/snowball.toml, scenes/elastic_cubes.toml and disks of the same materials; other machines differ.
 struct PlainCost {
   double transfers = 0, plain_energy = 0, decomposition = 0;
 };

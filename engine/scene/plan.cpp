@@ -142,6 +142,11 @@ Plan make_plan(SceneDescription scene) {
   plan_attributes(scene, plan, problems);
   problems.throw_if_any();
   plan.scene = std::move(scene);
+  if (plan.frames() == 1)
+    plan.warnings.push_back(
+        fmt::format("simulation.duration ({:g} s) is shorter than a frame ({:g} s): only the "
+                    "start is written; raise it or simulation.frame_rate",
+                    plan.scene.simulation.duration, 1 / plan.scene.simulation.frame_rate));
   return plan;
 }
 
