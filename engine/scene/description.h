@@ -135,6 +135,7 @@ struct OutputDescription {
 
 struct SceneDescription {
   std::filesystem::path file;
+  std::string as_run;  // the scene as TOML, overrides in it: what it takes to run it again
   std::string title, description;
   SimulationDescription simulation;
   std::optional<Vec3> gravity;  // m/s^2

@@ -1,5 +1,7 @@
 #include "engine/scene/reader.h"
 
+#include <sstream>
+
 #include "engine/scene/overrides.h"
 #include "engine/scene/scene_text.h"
 #include "engine/scene/table_reader.h"
@@ -19,6 +21,9 @@ SceneDescription read_scene_text(std::string_view text, const std::filesystem::p
     for (const std::string& text_of_one : overrides) apply_override(text_of_one, *table, report);
     TableReader::Context context{report, std::nullopt};
     read_all(context, *table, "", scene);
+    std::ostringstream as_run;
+    as_run << *table;
+    scene.as_run = as_run.str();
   }
   report.throw_if_any();
   return scene;

@@ -96,7 +96,7 @@ class Reporting(FirnTest):
         self.firn("run", self.scene, "--out", out, "--threads", "1")
         record = run_record(out)
         self.assertEqual(record["state"], "finished")
-        self.assertEqual(record["firn"], self.firn("--version").stdout.split()[1])
+        self.assertEqual(record["versions"]["firn"], self.firn("--version").stdout.split()[1])
         expected = self.plan(self.scene)
         self.assertEqual(record["plan"], expected)
         self.assertEqual(record["particles"], expected["estimate"]["particles"])

@@ -112,7 +112,8 @@ nlohmann::json run_record(const Plan& plan, const Estimate& e, const Simulation&
     stepping += seconds;
   }
   const double updates = static_cast<double>(simulation.particles()) * static_cast<double>(account.steps);
-  return {{"firn", kVersion},
+  return {{"versions", {{"firn", kVersion}, {"compiler", __VERSION__}}},
+          {"scene", plan.scene.as_run},
           {"state", state},
           {"plan", plan_json(plan, e)},
           {"threads", threads},

@@ -20,6 +20,16 @@ TEST_CASE("an override replaces a value, and the last one of a key counts") {
   CHECK(read(kSmallest, {"simulation.cell_size=1e-2"}).simulation.cell_size == 0.01);
 }
 
+TEST_CASE("a scene is kept as it was run: read again, it gives the same values") {
+  const auto d = read(kTwoBodies, {"simulation.cfl=0.2", "bodies.cube.velocity=[1, 2, 3]",
+                                   "gravity.acceleration=[0, -2, 0]"});
+  const auto again = read(d.as_run);
+  CHECK(again.simulation.cfl == 0.2);
+  CHECK(again.bodies.at(1).velocity == Vec3(1, 2, 3));
+  CHECK(again.gravity == Vec3(0, -2, 0));
+  CHECK(again.as_run == d.as_run);
+}
+
 TEST_CASE("a bare word is a string") {
   CHECK(read(kSmallest, {"simulation.transfer=flip"}).simulation.transfer == Transfer::flip);
   CHECK(read(kSmallest, {"simulation.transfer = flip"}).simulation.transfer == Transfer::flip);
