@@ -38,7 +38,7 @@ class PosedCollider {
       const Vector<Real, D> normal = plane_normal<Real, D>(outward(points[n], block.h));
       const Real friction = static_cast<Real>(collider_->friction);
       block.nodes[n].v = contact_velocity(collider_->contact, friction, block.nodes[n].v, wall, normal);
-      // A two-sided condition holds before the forces too: its nodes have no rate (equations.md, section 2).
+      // A two-sided condition holds before the forces too: its nodes have no rate (Buzzi et al., figure 21).
       if (!block.before.empty() && collider_->contact != Contact::separating)
         block.before[n] = contact_velocity(collider_->contact, Real(0), block.before[n], wall, normal);
     }

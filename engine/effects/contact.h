@@ -13,7 +13,7 @@ enum class Contact {
 
 /// The velocity after contact with a wall moving at `v_wall`, `normal` (unit) pointing out of it. A zero
 /// normal, as deep inside a level set where no side is nearer, sticks. Coulomb friction takes at most
-/// `friction` times the normal change from the tangential velocity (Stomakhin et al. 2013, section 8); it
+/// `friction` times the normal change from the tangential velocity (Stomakhin et al. 2013); it
 /// acts for slip and separating.
 template <class Real, int D>
 Vector<Real, D> contact_velocity(Contact contact, Real friction, const Vector<Real, D>& v,

@@ -1,5 +1,5 @@
-// Particles to grid: mass and momentum with the step's internal forces already in it (equations.md is the
-// team's record of the checked forms; Jiang et al. 2015 for APIC, Stomakhin et al. 2013 for the force).
+// Particles to grid: mass and momentum with the step's internal forces already in it. APIC after Jiang et al.
+// 2015, the force after Stomakhin et al. 2013; tau is positive in tension.
 //
 //   m_i = sum S m_p
 //   q_i = sum S m_p (v_p + C_p (x_i - x_p)) - dt sum V0_p tau_p grad S
