@@ -48,6 +48,16 @@ struct Stencil {
     }
   }
 
+  /// What stands for the gradient by x/h of a node in a transfer scheme.
+  template <class Transfer>
+  static Vector<Real, D> force_gradient(Real weight, const Vector<Real, D>& gradient,
+                                        const Vector<Real, D>& offset) {
+    if constexpr (Transfer::moments)
+      return (Real(Kernel::inverse_inertia) * weight) * offset;
+    else
+      return gradient;
+  }
+
   /// Calls visit(scratch index, weight, gradient by x/h, offset (x_i - x_p)/h) for each node.
   template <class Visit>
   void for_each(Visit&& visit) const {

@@ -48,7 +48,8 @@ Motion gather(ParticleTable<Real, D>& particles, std::pair<std::size_t, std::siz
         [&](std::size_t node, Real w, const Vector<Real, D>& gradient, const Vector<Real, D>& offset) {
           const Vector<Real, D>& v_i = nodes.node[node].v;
           v += w * v_i;
-          gradient_v = gradient_v + outer(v_i, gradient);
+          gradient_v =
+              gradient_v + outer(v_i, stencil.template force_gradient<Transfer>(w, gradient, offset));
           if constexpr (Transfer::affine) B = B + outer(w * v_i, offset);
           if constexpr (Transfer::increments) change += w * (v_i - before->node[node]);
         });

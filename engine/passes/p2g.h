@@ -39,7 +39,7 @@ void scatter(const ParticleTable<Real, D>& particles, std::pair<std::size_t, std
           if constexpr (Transfer::affine) q += affine_momentum * offset;
           q = w * q;
           if constexpr (Transfer::increments) before->node[node] += q;
-          nodes.node[node].v += q + impulse * gradient;
+          nodes.node[node].v += q + impulse * stencil.template force_gradient<Transfer>(w, gradient, offset);
           nodes.node[node].m += w * m;
         });
   }

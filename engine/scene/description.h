@@ -113,7 +113,7 @@ struct DomainDescription {
   double friction = 0;
 };
 
-enum class Transfer { pic, flip, apic };
+enum class Transfer { pic, flip, apic, mls };
 enum class Precision { single, double_ };
 
 struct SimulationDescription {

@@ -11,8 +11,9 @@
 
 namespace firn {
 
-inline constexpr std::array<Choice<Transfer>, 3> kTransfers = {{
+inline constexpr std::array<Choice<Transfer>, 4> kTransfers = {{
     {"apic", Transfer::apic, "affine: keeps angular momentum, quiet"},
+    {"mls", Transfer::mls, "APIC with forces from its moments: fastest"},
     {"flip", Transfer::flip, "keeps detail, noisier; see flip_ratio"},
     {"pic", Transfer::pic, "very dissipative"},
 }};

@@ -19,6 +19,8 @@ ColumnSet transfer_columns(Transfer transfer) {
       return kTransferColumns | PicTransfer::columns;
     case Transfer::flip:
       return kTransferColumns | FlipTransfer::columns;
+    case Transfer::mls:
+      return kTransferColumns | MlsTransfer::columns;
     case Transfer::apic:
       break;
   }
@@ -121,7 +123,7 @@ void plan_attributes(const SceneDescription& scene, Plan& plan, Problems& proble
                    fmt::format("'{}' does not exist here: no material of this scene is plastic", name.text));
     if (name.text == "C" && !stored(Column::affine))
       problems.add(name.mark, "output.attributes",
-                   "'C' does not exist here: only simulation.transfer = \"apic\" stores it");
+                   "'C' does not exist here: only simulation.transfer = \"apic\" and \"mls\" store it");
     plan.attributes.push_back(attribute);
   }
 }

@@ -12,6 +12,8 @@ std::unique_ptr<Simulation> make_plain(const Plan& plan, std::span<const Seeds> 
       return std::make_unique<PlainSimulation<Real, D, QuadraticKernel, PicTransfer>>(plan, seeds);
     case Transfer::flip:
       return std::make_unique<PlainSimulation<Real, D, QuadraticKernel, FlipTransfer>>(plan, seeds);
+    case Transfer::mls:
+      return std::make_unique<PlainSimulation<Real, D, QuadraticKernel, MlsTransfer>>(plan, seeds);
     case Transfer::apic:
       break;
   }

@@ -37,7 +37,7 @@ class PlainSimulation final : public Simulation {
     return std::min(dt, s.max_dt.value_or(dt));
   }
 
-  void step(double dt) override {
+  void step(double dt, double) override {
     const double h = plan_->cell_size();
     const Real dt_real = static_cast<Real>(dt), h_real = static_cast<Real>(h);
     const std::span<Batch<Real, D>> batches = batches_;
@@ -70,6 +70,8 @@ class PlainSimulation final : public Simulation {
     steps_.dt_min = steps_.steps == 1 ? dt : std::min(steps_.dt_min, dt);
     steps_.dt_max = std::max(steps_.dt_max, dt);
   }
+
+  void shorten(double) override {}  // each step puts its own forces on the grid
 
   double time() const override { return time_; }
   void set_time(double time) override { time_ = time; }

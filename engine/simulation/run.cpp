@@ -1,5 +1,8 @@
 #include "engine/simulation/run.h"
 
+#include <algorithm>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "engine/base/error.h"
@@ -21,22 +24,40 @@ void check_step(double dt, double frame_duration, double time) {
           time, dt, kMostStepsPerFrame, frame_duration));
 }
 
-/// Steps to exactly `target`; the last two share what is left, so that none is tiny.
+/// A step of at most `dt` when `left` remains to the frame; the last two share it, so that none is tiny.
+double fitted(double dt, double left) {
+  if (left <= dt) return left;
+  return left < 2 * dt ? left / 2 : dt;
+}
+
+// A step decided ahead may turn out this much longer than cfl asks for. cfl is a margin, not an edge.
+constexpr double kTooLong = 1.05;
+
+/// Steps to exactly `target`. The length of each step but a frame's first is decided before the one it
+/// follows: what the speeds change by is extrapolated, and corrected when it was more.
 bool advance(Simulation& simulation, double target, double frame_duration, int frame,
              const StepListener& listener, const StopRequested& stop) {
   // What remains below this is rounding of the time itself.
   const double nothing = 1e-12 * target;
-  while (target - simulation.time() > nothing) {
+  double left = target - simulation.time();
+  if (left <= nothing) return true;
+  double stable = simulation.stable_dt(), before = stable;
+  double dt = fitted(stable, left);
+  while (left > nothing) {
     if (stop()) return false;
-    const double left = target - simulation.time();
-    double dt = simulation.stable_dt();
-    check_step(dt, frame_duration, simulation.time());
-    if (left <= dt)
-      dt = left;
-    else if (left < 2 * dt)
-      dt = left / 2;
-    simulation.step(dt);
+    check_step(stable, frame_duration, simulation.time());
+    const double left_after = left - dt;
+    const double ahead = 1 / (1 / stable + std::max(0.0, 1 / stable - 1 / before));
+    double next = left_after > nothing ? fitted(ahead, left_after) : 0;
+    simulation.step(dt, next);
     listener(frame, simulation.time(), dt);
+    before = std::exchange(stable, simulation.stable_dt());
+    if (next > kTooLong * stable) {
+      next = fitted(stable, left_after);
+      simulation.shorten(next);
+    }
+    left = left_after;
+    dt = next;
   }
   simulation.set_time(target);
   return true;

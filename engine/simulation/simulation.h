@@ -32,7 +32,13 @@ class Simulation {
 
   /// Advances by `dt`. Throws Error{numerics} naming a particle when the state is no longer finite; the state
   /// before it is then lost, and frames already written are not touched.
-  virtual void step(double dt) = 0;
+  ///
+  /// `next`: the length of the step to follow, when it is to follow without a look at the particles (view) in
+  /// between, else 0. A path that fuses two steps already puts the next one's forces on the grid; it must then
+  /// be that long, unless `shorten` says otherwise first.
+  virtual void step(double dt, double next = 0) = 0;
+  /// Makes the announced next step `next` instead.
+  virtual void shorten(double next) = 0;
 
   virtual double time() const = 0;
   /// After the last step of a frame, the time it was meant to reach: sums of steps do not drift.

@@ -13,7 +13,17 @@ namespace firn {
 namespace {
 
 std::string_view name(Transfer t) {
-  return t == Transfer::pic ? "PIC" : t == Transfer::flip ? "FLIP" : "APIC";
+  switch (t) {
+    case Transfer::pic:
+      return "PIC";
+    case Transfer::flip:
+      return "FLIP";
+    case Transfer::mls:
+      return "MLS";
+    case Transfer::apic:
+      break;
+  }
+  return "APIC";
 }
 std::string_view name(Contact c) {
   return c == Contact::sticky ? "sticky" : c == Contact::slip ? "slip" : "separating";
@@ -40,7 +50,8 @@ std::vector<Effect> effects(const Plan& plan) {
   std::vector<std::string> colliders;
   for (const Collider& c : grid.colliders)
     colliders.push_back(fmt::format("{} ({})", c.name, name(c.contact)));
-  const bool affine = plan.scene.simulation.transfer == Transfer::apic;
+  const bool affine = plan.scene.simulation.transfer == Transfer::apic ||
+                      plan.scene.simulation.transfer == Transfer::mls;
   const bool increments = plan.scene.simulation.transfer == Transfer::flip;
   return {
       {"plasticity", plastic, plastic ? "return map each step, F_P stored" : "no return map, no F_P"},

@@ -50,7 +50,7 @@ double distance(const double (&a)[3], const double (&b)[3]) {
 }  // namespace
 
 TEST_CASE("every step of every scheme conserves mass exactly and momentum to rounding") {
-  for (const std::string transfer : {"pic", "flip", "apic"}) {
+  for (const std::string transfer : {"pic", "flip", "apic", "mls"}) {
     INFO(transfer);
     Simulated run(kCollision, {"simulation.transfer=" + transfer});
     const firn::FrameTotals start = run.totals();
@@ -84,7 +84,7 @@ TEST_CASE("APIC conserves angular momentum through contact and breaking") {
 
 TEST_CASE("total energy never grows when nothing acts from outside") {
   // Transfers dissipate and the return map dissipates; the sum with what the return map took may only fall.
-  for (const std::string transfer : {"pic", "apic"}) {
+  for (const std::string transfer : {"pic", "apic", "mls"}) {
     INFO(transfer);
     Simulated run(kCollision, {"simulation.transfer=" + transfer});
     const firn::FrameTotals start = run.totals();
@@ -98,7 +98,7 @@ TEST_CASE("total energy never grows when nothing acts from outside") {
 }
 
 TEST_CASE("free fall is exact: v = -g t, x = x0 - g t (t + dt) / 2, F = I") {
-  for (const std::string transfer : {"pic", "flip", "apic"}) {
+  for (const std::string transfer : {"pic", "flip", "apic", "mls"}) {
     INFO(transfer);
     Simulated run(
         with(kCollision, "[materials.snow]", "[gravity]\nacceleration = [0, -10, 0]\n[materials.snow]"),
