@@ -25,7 +25,7 @@ struct Elastic {
       const auto direct = Energy::direct_response(p.F_E, m);
       return {direct.tau, direct.wave_modulus, L(0), direct.capped};
     } else {
-      const Svd<L, D> f = svd(p.F_E);
+      const Svd<L, D> f = svd_any_order(p.F_E);
       return {compose(f.U, Energy::kirchhoff(f.s, m), f.U), Energy::wave_modulus(f.s, m), L(0),
               Energy::capped(f.s)};
     }
@@ -37,7 +37,7 @@ struct Elastic {
     if constexpr (DirectEnergy<Energy>) {
       return Energy::direct_density(p.F_E, m);
     } else {
-      return Energy::density(svd(p.F_E).s, m);
+      return Energy::density(svd_any_order(p.F_E).s, m);
     }
   }
 

@@ -34,7 +34,7 @@ struct ElastoPlastic {
   template <class L, int D>
   Response<L, D> update(PlasticPoint<L, D>& p, L) const {
     const Lame<L> rest = moduli.as<L>();
-    const Svd<L, D> f = svd(p.F_E);
+    const Svd<L, D> f = svd_any_order(p.F_E);
     const Vector<L, D> s = yield.project(f.s);
     L J_P = determinant(p.F_P);
     const L psi_trial = Energy::density(f.s, hardening.evaluate(J_P).factor * rest);
@@ -60,7 +60,7 @@ struct ElastoPlastic {
 
   template <class L, int D>
   L energy(const PlasticPoint<L, D>& p) const {
-    return Energy::density(svd(p.F_E).s, current_moduli(p));
+    return Energy::density(svd_any_order(p.F_E).s, current_moduli(p));
   }
 
   /// The moduli this point has now.

@@ -1,6 +1,6 @@
 // What the parts of a material promise each other, as concepts: a pair that does not fit does not compile.
 //
-// An energy is isotropic: a function of the signed singular values s of F (s0 >= s1 >= |s2|) and the moduli.
+// An energy is isotropic: a function of the signed singular values s of F, in any order, and the moduli.
 // Its Kirchhoff stress has F's left singular vectors as axes, tau_k = s_k dpsi/ds_k, positive in tension.
 #pragma once
 
@@ -40,6 +40,19 @@ template <class L, int D>
 L sum(const Vector<L, D>& s) {
   L out = s[0];
   for (int k = 1; k < D; ++k) out = out + s[k];
+  return out;
+}
+/// The largest square, and the least value.
+template <class L, int D>
+L largest_square(const Vector<L, D>& s) {
+  L out = s[0] * s[0];
+  for (int k = 1; k < D; ++k) out = max(s[k] * s[k], out);
+  return out;
+}
+template <class L, int D>
+L least(const Vector<L, D>& s) {
+  L out = s[0];
+  for (int k = 1; k < D; ++k) out = min(s[k], out);
   return out;
 }
 /// dJ/ds_i and, for i != j, d2J/(ds_i ds_j): the product of the other singular values.

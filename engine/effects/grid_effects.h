@@ -21,12 +21,11 @@ struct GridEffects {
 using StepEffect = std::variant<Gravity, PosedCollider, DomainWalls>;
 
 /// `time`: when the velocities that the effects shape hold, the end of the step.
-inline std::vector<StepEffect> effects_at(const GridEffects& effects, double time) {
-  std::vector<StepEffect> out;
+inline void effects_at(const GridEffects& effects, double time, std::vector<StepEffect>& out) {
+  out.clear();
   if (effects.gravity) out.emplace_back(*effects.gravity);
   for (const Collider& collider : effects.colliders) out.emplace_back(PosedCollider(collider, time));
   if (effects.domain) out.emplace_back(*effects.domain);
-  return out;
 }
 
 }  // namespace firn

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -47,6 +48,10 @@ constexpr std::uint64_t cell_key(const std::array<std::int32_t, D>& cell) {
 constexpr std::uint64_t block_of_key(std::uint64_t key) {
   return key >> 6;
 }
+/// Which cell of its block, in [0, 64).
+constexpr std::uint32_t cell_of_key(std::uint64_t key) {
+  return static_cast<std::uint32_t>(key & 63);
+}
 template <int D>
 constexpr BlockCoord<D> block_coord(std::uint64_t block) {
   BlockCoord<D> out{};
@@ -60,26 +65,38 @@ constexpr BlockCoord<D> block_coord(std::uint64_t block) {
 template <int D>
 class BlockLayout {
  public:
+  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
   using Neighbours = std::array<std::uint32_t, kNeighbours<D>>;
 
   BlockLayout() = default;
-  /// `occupied`: the blocks with particles (block_of_key), sorted and unique.
-  explicit BlockLayout(std::span<const std::uint64_t> occupied);
+  explicit BlockLayout(std::span<const std::uint64_t> occupied) { rebuild(occupied); }
+  /// `occupied`: the blocks with particles (block_of_key), sorted and unique. Keeps its memory.
+  void rebuild(std::span<const std::uint64_t> occupied);
 
-  /// All blocks: the occupied ones first, then the rest of their neighbourhoods.
+  /// All blocks: the occupied ones first, in their order, then the rest of their neighbourhoods.
   std::size_t size() const { return coords_.size(); }
   std::size_t occupied() const { return neighbours_.size(); }
   const BlockCoord<D>& coord(std::size_t block) const { return coords_[block]; }
+  /// kNone where there is no such block.
+  std::uint32_t find(const BlockCoord<D>& coord) const;
 
   /// Of an occupied block: the 3^D blocks around it, itself in the middle, last axis fastest.
   const Neighbours& neighbours(std::size_t block) const { return neighbours_[block]; }
+  /// Of any block: the occupied ones among the 3^D blocks around it, kNone for the others.
+  const Neighbours& sources(std::size_t block) const { return sources_[block]; }
   /// The occupied blocks of each colour.
   const std::array<std::vector<std::uint32_t>, kNeighbours<D>>& colours() const { return colours_; }
 
+  std::size_t bytes() const;
+
  private:
+  std::uint32_t add(const BlockCoord<D>& coord);
+  std::size_t slot(const BlockCoord<D>& coord) const;
+
   std::vector<BlockCoord<D>> coords_;
-  std::vector<Neighbours> neighbours_;
+  std::vector<Neighbours> neighbours_, sources_;
   std::array<std::vector<std::uint32_t>, kNeighbours<D>> colours_;
+  std::vector<std::uint32_t> table_;  // open addressing, a power of two, at most half full
 };
 
 }  // namespace firn

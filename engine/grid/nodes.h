@@ -12,8 +12,9 @@
 namespace firn {
 
 /// While particles are scattered `v` is momentum (kg m/s); after the grid update it is velocity (m/s).
+/// Four numbers in 2D too, the last unused: what the vectorised path loads at once.
 template <class Real, int D>
-struct Node {
+struct alignas(D == 2 ? 4 * sizeof(Real) : sizeof(Real)) Node {
   Vector<Real, D> v;
   Real m;
 };
@@ -23,6 +24,9 @@ template <class T, int D>
 class BlockArray {
  public:
   void reset(const BlockLayout<D>& layout) { values_.assign(layout.size() * kBlockNodes<D>, T{}); }
+  /// Without a value for what is new.
+  void resize(const BlockLayout<D>& layout) { values_.resize(layout.size() * kBlockNodes<D>); }
+  void swap(BlockArray& other) { values_.swap(other.values_); }
   std::span<T> block(std::size_t b) { return {values_.data() + b * kBlockNodes<D>, kBlockNodes<D>}; }
   std::span<const T> block(std::size_t b) const {
     return {values_.data() + b * kBlockNodes<D>, kBlockNodes<D>};

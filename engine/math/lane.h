@@ -3,7 +3,8 @@
 // masks select.
 //
 // A lane type L supports + - * / and unary -, == < <= > >= giving LaneMask<L>, construction from double, and
-// the functions below found by unqualified name. Masks support & | !.
+// the functions below found by unqualified name. Masks support & | !, and `any` for work that is seldom
+// needed: a result must not depend on whether a neighbour needed it.
 #pragma once
 
 #include <algorithm>
@@ -52,6 +53,23 @@ inline float abs(float x) {
 }
 inline double abs(double x) {
   return std::fabs(x);
+}
+/// 1/sqrt(x) of a positive normal number, to a few units in the last place; and to 11 bits or better.
+template <class T>
+requires std::is_floating_point_v<T> T inverse_sqrt(T x) {
+  return T(1) / std::sqrt(x);
+}
+template <class T>
+requires std::is_floating_point_v<T> T rough_inverse_sqrt(T x) {
+  return T(1) / std::sqrt(x);
+}
+/// x, or -x where `sign` is negative (-0 included).
+template <class T>
+requires std::is_floating_point_v<T> T flip_sign(T x, T sign) {
+  return std::signbit(sign) ? -x : x;
+}
+inline bool any(bool mask) {
+  return mask;
 }
 /// |magnitude| with the sign of `sign` (that of -0 included).
 inline float copysign(float magnitude, float sign) {

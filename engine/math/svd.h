@@ -157,6 +157,114 @@ Svd<L, D> svd(const Matrix<L, D>& F) {
   }
 }
 
+namespace svd_detail {
+
+// One Jacobi rotation of the symmetric matrix with diagonal entries pp, qq and off-diagonal pq (to be removed),
+// rp, rq; the eigenvectors go along. The angle is rough, the rotation exactly normalised: what is left of pq
+// is removed by the next sweep, and V stays orthogonal.
+template <class L>
+inline void rotate_symmetric(L& pp, L& qq, L& pq, L& rp, L& rq, Vector<L, 3>& vp, Vector<L, 3>& vq) {
+  const L d = pp - qq, o = pq + pq;
+  const L r2 = d * d + (o * o + L(sizeof(LaneReal<L>) == 4 ? 1e-34 : 1e-290));
+  const L x = r2 * rough_inverse_sqrt(r2) + abs(d);
+  const L y = flip_sign(o, d);
+  const L g = inverse_sqrt(x * x + y * y);
+  const L c = x * g, s = y * g;
+  const L a = c * pp + s * pq, b = c * pq + s * qq, e = c * pq - s * pp, f = c * qq - s * pq;
+  pp = c * a + s * b;
+  pq = c * b - s * a;
+  qq = c * f - s * e;
+  const L r = c * rp + s * rq;
+  rq = c * rq - s * rp;
+  rp = r;
+  for (int i = 0; i < 3; ++i) {
+    const L v = c * vp[i] + s * vq[i];
+    vq[i] = c * vq[i] - s * vp[i];
+    vp[i] = v;
+  }
+}
+
+template <class L>
+struct Gram {  // F^T F and its eigenvectors, rotated towards a diagonal
+  L s00, s11, s22, s01, s12, s02;
+  Vector<L, 3> v[3];
+
+  explicit Gram(const Matrix<L, 3>& F) {
+    const Vector<L, 3> a = F.column(0), b = F.column(1), c = F.column(2);
+    s00 = dot(a, a), s11 = dot(b, b), s22 = dot(c, c), s01 = dot(a, b), s12 = dot(b, c), s02 = dot(a, c);
+    v[0] = {L(1), L(0), L(0)}, v[1] = {L(0), L(1), L(0)}, v[2] = {L(0), L(0), L(1)};
+  }
+  void sweep() {
+    rotate_symmetric(s00, s11, s01, s02, s12, v[0], v[1]);
+    rotate_symmetric(s11, s22, s12, s01, s02, v[1], v[2]);
+    rotate_symmetric(s22, s00, s02, s12, s01, v[2], v[0]);
+  }
+  // Columns of F V that are orthogonal to round-off of their lengths.
+  LaneMask<L> diagonal() const {
+    const L tolerance = L(sizeof(LaneReal<L>) == 4 ? 1.6e-13 : 4e-30);
+    return (s01 * s01 <= tolerance * (s00 * s11)) & (s12 * s12 <= tolerance * (s11 * s22)) &
+           (s02 * s02 <= tolerance * (s00 * s22));
+  }
+};
+
+template <class L, int D>
+Matrix<L, D> chosen(const LaneMask<L>& mask, const Matrix<L, D>& a, const Matrix<L, D>& b) {
+  Matrix<L, D> out;
+  for (int i = 0; i < D; ++i)
+    for (int j = 0; j < D; ++j) out(i, j) = select(mask, a(i, j), b(i, j));
+  return out;
+}
+
+}  // namespace svd_detail
+
+/// The same with the singular values in any order, which isotropic functions do not care about: less than half
+/// the work of `svd` where F is near a rotation, as most elastic states are. By Jacobi on F^T F, which is
+/// accurate while the singular values are of one magnitude; the rest (inverted, flat or strongly stretched,
+/// not finite) is left to `svd`. An inverted F has its negative value last.
+template <class L, int D>
+Svd<L, D> svd_any_order(const Matrix<L, D>& F) {
+  if constexpr (D < 3) {
+    return svd(F);
+  } else {
+    using namespace svd_detail;
+    Gram<L> gram(F);
+    for (int sweep = 0; sweep < 3; ++sweep) gram.sweep();
+    for (int more = 0; more < 2 && any(!gram.diagonal()); ++more) {
+      const LaneMask<L> done = gram.diagonal();
+      const Gram<L> before = gram;
+      gram.sweep();
+      for (int k = 0; k < 3; ++k)
+        for (int i = 0; i < 3; ++i) gram.v[k][i] = select(done, before.v[k][i], gram.v[k][i]);
+      for (L Gram<L>::*s : {&Gram<L>::s00, &Gram<L>::s11, &Gram<L>::s22, &Gram<L>::s01, &Gram<L>::s12,
+                            &Gram<L>::s02})
+        gram.*s = select(done, before.*s, gram.*s);
+    }
+    Svd<L, 3> out;
+    Vector<L, 3> length2;
+    for (int k = 0; k < 3; ++k) {
+      const Vector<L, 3>& v = gram.v[k];
+      // One Newton step takes out the last bits by which the rotations are not normalised.
+      const Vector<L, 3> unit = (L(1.5) - L(0.5) * dot(v, v)) * v;
+      const Vector<L, 3> b = F * unit;
+      length2[k] = dot(b, b);
+      out.s[k] = sqrt(length2[k]);
+      out.V.set_column(k, unit);
+      out.U.set_column(k, (L(1) / out.s[k]) * b);
+    }
+    const L longest = max(max(length2[0], length2[1]), length2[2]);
+    // s_mid s_min > s_max^2 / 8: below it the squares in F^T F cost digits.
+    const LaneMask<L> ordinary = (L(64) * length2[0] * length2[1] * length2[2] > longest * longest * longest) &
+                                 (longest > L(1e-6)) & gram.diagonal() & (determinant(out.U) > L(0));
+    if (any(!ordinary)) {
+      const Svd<L, 3> rest = svd(F);
+      out.U = chosen(ordinary, out.U, rest.U);
+      out.V = chosen(ordinary, out.V, rest.V);
+      for (int k = 0; k < 3; ++k) out.s[k] = select(ordinary, out.s[k], rest.s[k]);
+    }
+    return out;
+  }
+}
+
 /// U diag(d) V^T.
 template <class L, int D>
 Matrix<L, D> compose(const Matrix<L, D>& U, const Vector<L, D>& d, const Matrix<L, D>& V) {

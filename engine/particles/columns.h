@@ -70,6 +70,16 @@ class ColumnSet {
   constexpr ColumnSet(std::initializer_list<Column> columns) {
     for (Column c : columns) bits_ |= bit(c);
   }
+  static constexpr ColumnSet all() {
+    ColumnSet out;
+    out.bits_ = (std::uint32_t{1} << kColumnCount) - 1;
+    return out;
+  }
+  constexpr ColumnSet without(Column c) const {
+    ColumnSet out = *this;
+    out.bits_ &= ~bit(c);
+    return out;
+  }
   constexpr bool has(Column c) const { return (bits_ & bit(c)) != 0; }
   constexpr bool includes(ColumnSet other) const { return (other.bits_ & ~bits_) == 0; }
   friend constexpr ColumnSet operator|(ColumnSet a, ColumnSet b) {

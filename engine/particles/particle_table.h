@@ -1,29 +1,23 @@
 // The particles of one material: a column per quantity, allocated only when required.
-//
-// A column is cut into tiles of 16 particles, and within a tile its components lie one after another, each 16
-// values long. Sixteen particles of one component are one contiguous load for a vector lane, and one
-// particle's components are close together for the plain path.
+// A column is cut into tiles of 16 particles, and within a tile its components lie one after another.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include <tbb/blocked_range.h>
+#include <tbb/cache_aligned_allocator.h>
 #include <tbb/parallel_for.h>
 
 #include "engine/base/check.h"
 #include "engine/math/matrix.h"
 #include "engine/particles/columns.h"
+#include "engine/particles/tile.h"
 
 namespace firn {
-
-inline constexpr std::size_t kTile = 16;
-
-/// Where component `c` of particle `i` stands in a column of `n` components.
-constexpr std::size_t tile_index(std::size_t i, int c, int n) {
-  return (i / kTile * static_cast<std::size_t>(n) + static_cast<std::size_t>(c)) * kTile + i % kTile;
-}
 
 /// One column of a table. `Real` may be const. Values are Real, Vector or Matrix after the column's rank; a
 /// symmetric matrix is stored as its upper triangle.
@@ -79,6 +73,9 @@ class ColumnView {
 
 template <class Real, int D>
 class ParticleTable {
+  // Tiles begin on cache lines.
+  using Values = std::vector<Real, tbb::cache_aligned_allocator<Real>>;
+
  public:
   ParticleTable(ColumnSet columns, std::size_t size) : columns_(columns), size_(size), id_(size) {
     for (int c = 0; c < kColumnCount; ++c) {
@@ -101,20 +98,52 @@ class ParticleTable {
     return ColumnView<const Real, D, info(c).rank>(data_[index(c)].data());
   }
 
+  /// Where each column's tiles begin; null for a column that is not there.
+  std::array<Real*, kColumnCount> pointers() {
+    std::array<Real*, kColumnCount> out{};
+    for (int c = 0; c < kColumnCount; ++c)
+      if (columns_.has(static_cast<Column>(c))) out[static_cast<std::size_t>(c)] = data_[static_cast<std::size_t>(c)].data();
+    return out;
+  }
+
   /// Never reused and kept through every sort: how a particle is followed from frame to frame.
   std::span<std::uint32_t> id() { return id_; }
   std::span<const std::uint32_t> id() const { return id_; }
 
-  /// Particle i becomes what particle source[i] was.
-  void reorder(std::span<const std::uint32_t> source) {
+  /// Particle i becomes what particle source[i] was. Only the columns in `moved` keep their values; `spare`,
+  /// a matrix column that is not among them, lends its memory, or else a buffer is taken for the while.
+  void reorder(std::span<const std::uint32_t> source, ColumnSet moved, std::optional<Column> spare) {
     FIRN_CHECK(source.size() == size_);
+    Values buffer;
+    Values& other = spare && columns_.has(*spare) ? data_[index(*spare)] : buffer;
+    FIRN_CHECK(!spare || !moved.has(*spare));
+    const std::size_t lent = other.size();
     for (int c = 0; c < kColumnCount; ++c) {
       const auto column = static_cast<Column>(c);
-      if (columns_.has(column)) reorder_column(data_[index(column)], components(column, D), source);
+      if (!columns_.has(column) || !moved.has(column)) continue;
+      Values& data = data_[index(column)];
+      const std::size_t needed = data.size();
+      if (other.size() < needed) other.resize(needed);
+      const std::size_t width = column_width(column);
+      if (width == 1)
+        reorder_column<1>(data, other, source);
+      else if (width == D)
+        reorder_column<D>(data, other, source);
+      else if (width == D * D)
+        reorder_column<D * D>(data, other, source);
+      else
+        reorder_column<D*(D + 1) / 2>(data, other, source);
+      // The values stand in `other` now. Columns of the lent one's size change places with it; smaller ones
+      // are copied back, so that no column ends up with more memory than it needs.
+      if (needed == other.size())
+        data.swap(other);
+      else
+        copy(other, data);
     }
-    std::vector<std::uint32_t> ids(size_);
-    for (std::size_t i = 0; i < size_; ++i) ids[i] = id_[source[i]];
-    id_.swap(ids);
+    FIRN_CHECK(!spare || !columns_.has(*spare) || other.size() == lent);
+    ids_.resize(size_);
+    for (std::size_t i = 0; i < size_; ++i) ids_[i] = id_[source[i]];
+    id_.swap(ids_);
   }
 
   /// What a particle with these columns takes, the id included.
@@ -127,22 +156,30 @@ class ParticleTable {
   static constexpr std::size_t column_width(Column c) { return static_cast<std::size_t>(components(c, D)); }
   static constexpr std::size_t padded(std::size_t n) { return (n + kTile - 1) / kTile * kTile; }
 
-  void reorder_column(std::vector<Real>& data, int width, std::span<const std::uint32_t> source) {
-    scratch_.resize(data.size());
-    tbb::parallel_for(std::size_t{0}, (size_ + kTile - 1) / kTile, [&](std::size_t tile) {
-      const std::size_t end = std::min(size_, (tile + 1) * kTile);
-      for (std::size_t i = tile * kTile; i < end; ++i)
-        for (int c = 0; c < width; ++c)
-          scratch_[tile_index(i, c, width)] = data[tile_index(source[i], c, width)];
+  template <int width>
+  void reorder_column(const Values& from, Values& to, std::span<const std::uint32_t> source) const {
+    constexpr std::size_t kGrain = 64;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, padded(size_) / kTile, kGrain), [&](const auto& tiles) {
+      for (std::size_t tile = tiles.begin(); tile < tiles.end(); ++tile) {
+        Real* out = to.data() + tile * width * kTile;
+        const std::size_t first = tile * kTile, n = std::min(size_ - first, kTile);
+        for (std::size_t i = 0; i < n; ++i) {
+          const Real* in = from.data() + tile_index(source[first + i], 0, width);
+          for (std::size_t c = 0; c < width; ++c) out[c * kTile + i] = in[c * kTile];
+        }
+      }
     });
-    data.swap(scratch_);
+  }
+  static void copy(const Values& from, Values& to) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, to.size(), 1 << 14), [&](const auto& range) {
+      std::copy(from.data() + range.begin(), from.data() + range.end(), to.data() + range.begin());
+    });
   }
 
   ColumnSet columns_;
   std::size_t size_;
-  std::array<std::vector<Real>, kColumnCount> data_;
-  std::vector<Real> scratch_;
-  std::vector<std::uint32_t> id_;
+  std::array<Values, kColumnCount> data_;
+  std::vector<std::uint32_t> id_, ids_;
 };
 
 }  // namespace firn

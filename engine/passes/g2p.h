@@ -8,23 +8,10 @@
 #include <tbb/parallel_reduce.h>
 
 #include "engine/passes/batch.h"
+#include "engine/passes/reports.h"
 #include "engine/passes/transfer.h"
 
 namespace firn {
-
-/// What one pass over the particles saw; the largest of anything does not depend on the order it was looked
-/// at.
-struct Motion {
-  double max_speed = 0;         // m/s, of particles
-  double max_displacement = 0;  // m, along one axis in this step
-  std::int64_t invalid = 0;     // particles whose state is not finite or beyond the grid's reach
-
-  void join(const Motion& other) {
-    max_speed = std::max(max_speed, other.max_speed);
-    max_displacement = std::max(max_displacement, other.max_displacement);
-    invalid += other.invalid;
-  }
-};
 
 namespace detail {
 

@@ -5,9 +5,26 @@
 
 #include "engine/effects/grid_effects.h"
 #include "engine/passes/batch.h"
-#include "engine/passes/transfer.h"
 
 namespace firn {
+
+/// One block, `block.before` with it when the scheme keeps one. False when no node of it is in use.
+template <class Real, int D>
+bool update_block(BlockNodes<Real, D>& block, double dt, std::span<const StepEffect> effects) {
+  bool used = false;
+  for (std::size_t n = 0; n < block.nodes.size(); ++n) {
+    Node<Real, D>& node = block.nodes[n];
+    // A weight so small that the mass underflows to zero carries a momentum below rounding.
+    if (!(node.m > Real(0))) continue;
+    used = true;
+    for (int d = 0; d < D; ++d) node.v[d] /= node.m;
+    if (!block.before.empty())
+      for (int d = 0; d < D; ++d) block.before[n][d] /= node.m;
+  }
+  if (used)
+    for (const StepEffect& effect : effects) std::visit([&](const auto& e) { e.apply(block, dt); }, effect);
+  return used;
+}
 
 template <class Transfer, class Real, int D>
 void grid_update(const BlockLayout<D>& layout, double h, double dt, std::span<const StepEffect> effects,
@@ -15,18 +32,7 @@ void grid_update(const BlockLayout<D>& layout, double h, double dt, std::span<co
   tbb::parallel_for(std::size_t{0}, layout.size(), [&](std::size_t b) {
     BlockNodes<Real, D> block{grid.nodes.block(b), {}, layout.coord(b), h};
     if constexpr (Transfer::increments) block.before = grid.before.block(b);
-    bool used = false;
-    for (std::size_t n = 0; n < block.nodes.size(); ++n) {
-      Node<Real, D>& node = block.nodes[n];
-      // A weight so small that the mass underflows to zero carries a momentum below rounding.
-      if (!(node.m > Real(0))) continue;
-      used = true;
-      for (int d = 0; d < D; ++d) node.v[d] /= node.m;
-      if constexpr (Transfer::increments)
-        for (int d = 0; d < D; ++d) block.before[n][d] /= node.m;
-    }
-    if (!used) return;
-    for (const StepEffect& effect : effects) std::visit([&](const auto& e) { e.apply(block, dt); }, effect);
+    update_block(block, dt, effects);
   });
 }
 

@@ -8,23 +8,10 @@
 #include <tbb/parallel_reduce.h>
 
 #include "engine/particles/particle_table.h"
+#include "engine/passes/reports.h"
 #include "materials/material_point.h"
 
 namespace firn {
-
-struct MaterialReport {
-  double max_wave_modulus = 0;  // Pa
-  double dissipated = 0;        // J
-  std::int64_t capped = 0;      // particles on which a cap of the model acted
-  std::int64_t invalid = 0;     // particles whose answer is not finite
-
-  void join(const MaterialReport& other) {
-    max_wave_modulus = std::max(max_wave_modulus, other.max_wave_modulus);
-    dissipated += other.dissipated;
-    capped += other.capped;
-    invalid += other.invalid;
-  }
-};
 
 /// Particles are taken in pieces of this many, whatever the number of threads, so that sums are always added
 /// alike.

@@ -115,6 +115,7 @@ struct DomainDescription {
 
 enum class Transfer { pic, flip, apic, mls };
 enum class Precision { single, double_ };
+enum class PathChoice { automatic, plain };
 
 struct SimulationDescription {
   int dimension = 3;
@@ -124,6 +125,7 @@ struct SimulationDescription {
   Transfer transfer = Transfer::apic;
   std::optional<double> flip_ratio;  // flip only; 0 is PIC, 1 keeps every increment
   Precision precision = Precision::single;
+  PathChoice path = PathChoice::automatic;
   double cfl = 0.4;
   std::optional<double> max_dt;  // s
   std::uint64_t seed = 1;

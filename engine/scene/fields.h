@@ -21,6 +21,10 @@ inline constexpr std::array<Choice<Precision>, 2> kPrecisions = {{
     {"float", Precision::single, "32 bits"},
     {"double", Precision::double_, "64 bits"},
 }};
+inline constexpr std::array<Choice<PathChoice>, 2> kPaths = {{
+    {"automatic", PathChoice::automatic, "vectorised where there is such a path"},
+    {"plain", PathChoice::plain, "the reference, some twenty times slower"},
+}};
 inline constexpr std::array<Choice<Sampling>, 2> kSamplings = {{
     {"jittered", Sampling::jittered, "one particle in each part of a cell, at random in it"},
     {"poisson", Sampling::poisson, "at random with a least distance: more even, slower to make"},
@@ -54,6 +58,7 @@ void fields(V& v, SimulationDescription& d) {
           "with transfer \"flip\" only: 0 is PIC, 1 keeps every increment; 0.99 if left out", "-", "0.99"},
          d.flip_ratio, kFraction);
   v.choice({"precision", optional, "of the particles and the grid"}, d.precision, kPrecisions);
+  v.choice({"path", optional, "of computation"}, d.path, kPaths);
   v.real({"cfl", optional, "time step as a part of the largest explicit one"}, d.cfl,
          {.min = 0, .max = 1, .min_open = true});
   v.real({"max_dt", optional, "longest time step", "s", "1e-3"}, d.max_dt, kPositive);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -25,6 +26,15 @@ ColumnSet transfer_columns(Transfer transfer) {
       break;
   }
   return kTransferColumns | ApicTransfer::columns;
+}
+
+PathPlan plan_path(const SimulationDescription& s) {
+  if (s.path == PathChoice::plain) return {{}, "simulation.path = \"plain\""};
+  if (s.dimension == 1) return {{}, "the vectorised path has no 1D"};
+  if (s.transfer == Transfer::flip) return {{}, "FLIP needs every particle's velocity in every step"};
+  const std::optional<Isa> isa = best_isa();
+  if (!isa) return {{}, "the processor has no SSE4, or FIRN_ISA = none"};
+  return {isa, std::getenv("FIRN_ISA") != nullptr ? "FIRN_ISA" : "the widest registers of this processor"};
 }
 
 // The reader has checked every key and range against the same table.
@@ -76,8 +86,12 @@ void plan_batches(const SceneDescription& scene, Plan& plan) {
     const ModelInfo& model = *find_model(material.model.text);
     Material law = make_material(model.name, complete_values(model, material));
     const double density = std::visit([](const auto& m) { return m.density; }, law);
-    plan.batches.push_back({material.name, std::string(model.name), density, law,
-                            transfer_columns(scene.simulation.transfer) | model.columns});
+    ColumnSet columns = transfer_columns(scene.simulation.transfer) | model.columns;
+    // The vectorised path uses the stress where it is computed; a column is for those who ask for one.
+    const bool stress_asked = std::any_of(scene.output.attributes.begin(), scene.output.attributes.end(),
+                                          [](const Name& a) { return a.text == "stress"; });
+    if (plan.path.isa && !stress_asked) columns = columns.without(Column::stress);
+    plan.batches.push_back({material.name, std::string(model.name), density, law, columns});
   }
 }
 
@@ -138,6 +152,7 @@ int Plan::frames() const {
 Plan make_plan(SceneDescription scene) {
   Plan plan;
   Problems problems;
+  plan.path = plan_path(scene.simulation);
   plan_batches(scene, plan);
   plan_bodies(scene, plan, problems);
   plan_effects(scene, plan, problems);

@@ -8,6 +8,7 @@
 #include "engine/effects/grid_effects.h"
 #include "engine/scene/attributes.h"
 #include "engine/scene/description.h"
+#include "engine/vector/isa.h"
 #include "materials/registry.h"
 
 namespace firn {
@@ -27,11 +28,18 @@ struct BatchPlan {
   ColumnSet columns;
 };
 
+/// How the scene is stepped, and why so.
+struct PathPlan {
+  std::optional<Isa> isa;  // of the vectorised path; empty: the plain one
+  std::string reason;
+};
+
 struct Plan {
   SceneDescription scene;
   std::vector<BatchPlan> batches;
   std::vector<BodyPlan> bodies;
   GridEffects effects;
+  PathPlan path;
   std::vector<const Attribute*> attributes;  // beside P v id pscale
   std::vector<std::string> warnings;
 

@@ -63,7 +63,7 @@ struct NeoHookeanEnergy {
   }
   template <class L, int D>
   static L wave_modulus(const Vector<L, D>& s, const Lame<L>& m) {
-    return modulus(s[0] * s[0], log_volume(product(s)), m);
+    return modulus(largest_square(s), log_volume(product(s)), m);
   }
   template <class L, int D>
   static L capped(const Vector<L, D>& s) {

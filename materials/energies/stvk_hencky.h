@@ -63,7 +63,7 @@ struct StvkHenckyEnergy {
 
   template <class L, int D>
   static L capped(const Vector<L, D>& s) {
-    return select(s[D - 1] < L(kLeastStretch), L(1), L(0));
+    return select(firn::least(s) < L(kLeastStretch), L(1), L(0));
   }
 
   template <int D>

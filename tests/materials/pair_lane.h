@@ -11,6 +11,7 @@ struct PairMask {
   friend PairMask operator&(PairMask x, PairMask y) { return {x.a && y.a, x.b && y.b}; }
   friend PairMask operator|(PairMask x, PairMask y) { return {x.a || y.a, x.b || y.b}; }
   friend PairMask operator!(PairMask x) { return {!x.a, !x.b}; }
+  friend bool any(PairMask x) { return x.a || x.b; }
 };
 
 struct PairLane {
@@ -42,6 +43,14 @@ struct PairLane {
   friend PairLane abs(PairLane x) { return {firn::abs(x.a), firn::abs(x.b)}; }
   friend PairLane copysign(PairLane x, PairLane y) {
     return {firn::copysign(x.a, y.a), firn::copysign(x.b, y.b)};
+  }
+  friend PairLane inverse_sqrt(PairLane x) {
+    ++roots;
+    return {firn::inverse_sqrt(x.a), firn::inverse_sqrt(x.b)};
+  }
+  friend PairLane rough_inverse_sqrt(PairLane x) { return inverse_sqrt(x); }
+  friend PairLane flip_sign(PairLane x, PairLane y) {
+    return {firn::flip_sign(x.a, y.a), firn::flip_sign(x.b, y.b)};
   }
   friend PairLane min(PairLane x, PairLane y) { return {firn::min(x.a, y.a), firn::min(x.b, y.b)}; }
   friend PairLane max(PairLane x, PairLane y) { return {firn::max(x.a, y.a), firn::max(x.b, y.b)}; }

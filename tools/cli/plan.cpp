@@ -84,8 +84,10 @@ std::size_t bytes_per_particle(const Plan& plan, const BatchPlan& batch) {
 
 std::string kernels(const Plan& plan) {
   const SimulationDescription& s = plan.scene.simulation;
-  return fmt::format("{}D, quadratic B-spline, {}, {}, plain path", s.dimension, name(s.transfer),
-                     s.precision == Precision::double_ ? "double" : "float");
+  return fmt::format("{}D, quadratic B-spline, {}, {}, {} ({})", s.dimension, name(s.transfer),
+                     s.precision == Precision::double_ ? "double" : "float",
+                     plan.path.isa ? fmt::format("vectorised path, {}", name(*plan.path.isa)) : "plain path",
+                     plan.path.reason);
 }
 
 }  // namespace

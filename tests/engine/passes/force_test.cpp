@@ -24,7 +24,7 @@ struct Problem {
 
   explicit Problem(ColumnSet columns) {
     batches.push_back(test::random_batch<double, D>(400, kCell, 5, columns));
-    layout = sort_and_activate<QuadraticKernel, double, D>(std::span<Batch<double, D>>(batches), kCell);
+    Sorter<QuadraticKernel, double, D>().sort(batches, kCell, layout, ColumnSet::all());
   }
 
   template <class Model>

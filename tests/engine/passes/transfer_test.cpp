@@ -26,8 +26,7 @@ struct Grid {
     sort();
   }
   void sort() {
-    layout =
-        sort_and_activate<QuadraticKernel, Real, D>(std::span<Batch<Real, D>>(batches), static_cast<Real>(h));
+    Sorter<QuadraticKernel, Real, D>().sort(batches, static_cast<Real>(h), layout, ColumnSet::all());
   }
   void scatter(Real dt) {
     p2g<QuadraticKernel, Transfer, Real, D>(std::span<const Batch<Real, D>>(batches), layout,

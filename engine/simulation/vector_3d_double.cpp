@@ -1,0 +1,5 @@
+#include "engine/simulation/make_vector.inl"
+
+namespace firn {
+template std::unique_ptr<Simulation> make_vector<double, 3>(const Plan&, std::span<const Seeds>, Isa);
+}

@@ -1,0 +1,198 @@
+// The production step: vectorised, two passes. The grid update adds up what the blocks of particles left for
+// it; the particle pass takes velocities from the grid, moves the particles, returns them to what their
+// material allows, and already leaves the next step's momentum and forces. Where the caller wants to look in
+// between, at frames, the particle pass is split in two.
+#pragma once
+
+#include "engine/passes/grid_update.h"
+#include "engine/passes/outboxes.h"
+#include "engine/passes/sort.h"
+#include "engine/passes/speed_bound.h"
+#include "engine/simulation/particle_simulation.h"
+#include "engine/vector/kernel_tables.h"
+
+namespace firn {
+
+template <class Real, int D>
+class VectorSimulation final : public ParticleSimulation<Real, D> {
+  using Base = ParticleSimulation<Real, D>;
+  using Base::batches_, Base::layout_, Base::plan_, Base::time_, Base::drift_, Base::timed;
+  using Kernel = typename TransferKernels<Real, D>::Kernel;
+
+ public:
+  VectorSimulation(const Plan& plan, std::span<const Seeds> seeds, const KernelTable<Real, D>& table)
+      : Base(plan, seeds),
+        kernels_(transfer(table, plan.scene.simulation.transfer)),
+        updates_(table.materials),
+        reports_(batches_.size()) {
+    for (const auto& batch : batches_)
+      for (std::size_t p = 0; p < batch.particles.size(); ++p)
+        lightest_ = std::min(lightest_, batch.particles.template view<Column::mass>().load(p));
+    sort(ColumnSet::all(), std::nullopt);
+    // The wave speed of the seeded state; what else it leaves is not used.
+    run_blocks(kernels_.begin, 0, 0);
+    take_reports();
+  }
+
+  void step(double dt, double next) override {
+    const double farthest = Base::kFarthestDrift * plan_->cell_size();
+    FIRN_CHECK(announced_ == 0 || announced_ == dt);
+    if (announced_ == 0) {
+      if (drift_ >= farthest) timed(PassTimes::sort, [&] { sort(ColumnSet::all(), std::nullopt); });
+      timed(PassTimes::p2g, [&] { run_blocks(kernels_.begin, 0, dt); });
+    }
+    double reach = 0;  // m: no particle moves farther in this step
+    timed(PassTimes::grid, [&] {
+      effects_at(plan_->effects, time_ + dt, effects_);
+      reach = dt * update_grid(dt);
+    });
+    if (drift_ > 0 && !(drift_ + reach < farthest))
+      timed(PassTimes::sort, [&] {
+        // Between the grid update and the particle pass nobody needs v and C.
+        sort(ColumnSet::all().without(Column::velocity).without(Column::affine).without(Column::stress),
+             Column::affine);
+        move_grid();
+      });
+    // Particles that may have left the block's scratch cannot be scattered before they are sorted again.
+    announced_ = drift_ + reach < farthest ? next : 0;
+    timed(PassTimes::g2p, [&] { run_blocks(announced_ > 0 ? kernels_.fused : kernels_.finish, dt, announced_); });
+    time_ += dt;
+    Motion motion;
+    for (const Motion& m : motions_) motion.join(m);
+    this->take(motion);
+    take_reports();
+    this->count_step(dt);
+  }
+
+  void shorten(double next) override {
+    if (announced_ == 0) return;
+    timed(PassTimes::p2g, [&] { run_blocks(kernels_.adjust, 0, next - announced_); });
+    announced_ = next;
+  }
+
+  FrameView view() override {
+    FIRN_CHECK(announced_ == 0);  // v and C of particles are not kept in a fused step
+    return Base::view();
+  }
+
+  std::size_t bytes() const override {
+    return this->table_bytes() + grid_.bytes() + other_grid_.bytes() + outboxes_.bytes() + layout_.bytes() +
+           old_layout_.bytes() + sorter_.bytes();
+  }
+
+ private:
+  static TransferKernels<Real, D> transfer(const KernelTable<Real, D>& table, Transfer transfer) {
+    switch (transfer) {
+      case Transfer::pic:
+        return table.pic;
+      case Transfer::mls:
+        return table.mls;
+      default:
+        return table.apic;
+    }
+  }
+
+  void sort(ColumnSet moved, std::optional<Column> spare) {
+    std::swap(layout_, old_layout_);
+    sorter_.sort(batches_, static_cast<Real>(plan_->cell_size()), layout_, moved, spare);
+    drift_ = 0;
+    ++this->sorts_;
+    outboxes_.resize(layout_.occupied());
+    motions_.resize(layout_.occupied());
+    block_reports_.resize(layout_.occupied() * batches_.size());
+    make_tasks();
+  }
+
+  void make_tasks() {
+    const std::size_t n = batches_.size();
+    tasks_.resize(layout_.occupied() * n);
+    for (std::size_t k = 0; k < n; ++k) {
+      const Material& law = plan_->batches[k].law;
+      const void* model = std::visit([](const auto& m) { return static_cast<const void*>(&m); }, law);
+      const ColumnPointers<Real> columns = batches_[k].particles.pointers();
+      for (std::size_t b = 0; b < layout_.occupied(); ++b) {
+        const auto [first, last] = batches_[k].range(b);
+        tasks_[b * n + k] = {columns, first, last, updates_[law.index()], model, &block_reports_[b * n + k]};
+      }
+    }
+  }
+
+  // The velocities of the blocks that both layouts have. A particle's nodes were all in use before the sort.
+  void move_grid() {
+    other_grid_.resize(layout_);
+    tbb::parallel_for(std::size_t{0}, layout_.size(), [&](std::size_t b) {
+      const std::uint32_t old = old_layout_.find(layout_.coord(b));
+      const auto to = other_grid_.block(b);
+      if (old == BlockLayout<D>::kNone)
+        std::fill(to.begin(), to.end(), Node<Real, D>{});
+      else
+        std::copy(grid_.block(old).begin(), grid_.block(old).end(), to.begin());
+    });
+    grid_.swap(other_grid_);
+  }
+
+  /// A bound on the velocity components of all particles in this step, m/s; not finite when a node's is not.
+  double update_grid(double dt) {
+    grid_.resize(layout_);
+    const double h = plan_->cell_size();
+    return tbb::parallel_reduce(
+               tbb::blocked_range<std::size_t>(0, layout_.size(), 4), SpeedBound{},
+               [&](const tbb::blocked_range<std::size_t>& range, SpeedBound bound) {
+                 for (std::size_t b = range.begin(); b < range.end(); ++b) {
+                   BlockNodes<Real, D> block{grid_.block(b), {}, layout_.coord(b), h};
+                   collect<Real, D>(outboxes_, layout_.sources(b), block.nodes);
+                   if (update_block(block, dt, effects_)) bound.join(speed_bound<Real, D>(block.nodes, lightest_));
+                 }
+                 return bound;
+               },
+               [](SpeedBound a, const SpeedBound& b) {
+                 a.join(b);
+                 return a;
+               })
+        .value();
+  }
+
+  void run_blocks(Kernel kernel, double dt, double next) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, layout_.occupied(), 1), [&](const auto& range) {
+      for (std::size_t b = range.begin(); b < range.end(); ++b) run_block(kernel, b, dt, next);
+    });
+  }
+
+  void run_block(Kernel kernel, std::size_t b, double dt, double next) {
+    const std::size_t first = b * batches_.size();
+    for (std::size_t k = 0; k < batches_.size(); ++k) block_reports_[first + k] = {};
+    BlockTask<Real, D> task{};
+    task.batches = {tasks_.data() + first, batches_.size()};
+    task.block = layout_.coord(b);
+    if (dt > 0)
+      for (std::size_t n = 0; n < task.velocities.size(); ++n)
+        task.velocities[n] = &grid_.block(layout_.neighbours(b)[n])[0].v[0];
+    task.outbox = &outboxes_.block(b)->v[0];
+    task.h = static_cast<Real>(plan_->cell_size());
+    task.dt = static_cast<Real>(dt);
+    task.next = static_cast<Real>(next);
+    kernel(task);
+    motions_[b] = task.motion;
+  }
+
+  void take_reports() {
+    std::fill(reports_.begin(), reports_.end(), MaterialReport{});
+    for (std::size_t k = 0; k < block_reports_.size(); ++k) reports_[k % batches_.size()].join(block_reports_[k]);
+    this->take(reports_);
+  }
+
+  TransferKernels<Real, D> kernels_;
+  const MaterialKernel<Real>* updates_;  // by the index of the model in Material
+  std::vector<BatchTask<Real>> tasks_;   // block by block, then by batch
+  Sorter<QuadraticKernel, Real, D> sorter_;
+  BlockLayout<D> old_layout_;
+  BlockArray<Node<Real, D>, D> grid_, other_grid_;
+  Outboxes<Real, D> outboxes_;
+  std::vector<StepEffect> effects_;
+  std::vector<MaterialReport> reports_, block_reports_;  // block_reports_: block by block, then by batch
+  std::vector<Motion> motions_;
+  Real lightest_ = std::numeric_limits<Real>::max();  // kg, of the particles
+  double announced_ = 0;  // s; the length of the step whose forces are in the outboxes, or 0
+};
+
+}  // namespace firn

@@ -1,0 +1,68 @@
+#include "engine/vector/isa.h"
+
+#include <cstdlib>
+
+#include <fmt/format.h>
+#include <hwy/targets.h>
+
+#include "engine/base/error.h"
+#include "engine/vector/targets/tables.h"
+
+namespace firn {
+namespace {
+
+bool available(Isa isa) {
+  const auto targets = static_cast<std::uint64_t>(hwy::SupportedTargets());
+  switch (isa) {
+    case Isa::avx512:
+      return (targets & HWY_AVX3) != 0;
+    case Isa::avx2:
+      return (targets & HWY_AVX2) != 0;
+    case Isa::sse4:
+      return (targets & HWY_SSE4) != 0;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string_view name(Isa isa) {
+  return isa == Isa::avx512 ? "avx512" : isa == Isa::avx2 ? "avx2" : "sse4";
+}
+
+std::optional<Isa> best_isa() {
+  constexpr Isa all[] = {Isa::avx512, Isa::avx2, Isa::sse4};
+  const char* wanted = std::getenv("FIRN_ISA");
+  if (wanted == nullptr || *wanted == '\0') {
+    for (const Isa isa : all)
+      if (available(isa)) return isa;
+    return std::nullopt;
+  }
+  if (std::string_view(wanted) == "none") return std::nullopt;
+  for (const Isa isa : all) {
+    if (name(isa) != wanted) continue;
+    if (available(isa)) return isa;
+    throw Error(ExitCode::environment, fmt::format("FIRN_ISA={}: this processor does not have it", wanted));
+  }
+  throw Error(ExitCode::environment,
+              fmt::format("FIRN_ISA={}: unknown; allowed: avx512, avx2, sse4, none (the plain path)", wanted));
+}
+
+template <class Real, int D>
+KernelTable<Real, D> kernel_table(Isa isa) {
+  switch (isa) {
+    case Isa::avx512:
+      return avx512::kernel_table<Real, D>();
+    case Isa::avx2:
+      return avx2::kernel_table<Real, D>();
+    case Isa::sse4:
+      break;
+  }
+  return sse4::kernel_table<Real, D>();
+}
+template KernelTable<float, 2> kernel_table(Isa);
+template KernelTable<float, 3> kernel_table(Isa);
+template KernelTable<double, 2> kernel_table(Isa);
+template KernelTable<double, 3> kernel_table(Isa);
+
+}  // namespace firn

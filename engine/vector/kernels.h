@@ -1,0 +1,73 @@
+// What the vectorised kernels are called with: plain memory, the same for every instruction set.
+//
+// One call works on one block of particles: it reads the velocities of the 3^D grid blocks around it, updates
+// its particles tile by tile and leaves what they give to the grid in the block's outbox, which the grid
+// update adds up. Blocks write nothing that another block reads, so they run in any order on any number of
+// threads with the same bits.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "engine/grid/block_layout.h"
+#include "engine/particles/columns.h"
+#include "engine/particles/tile.h"
+#include "engine/passes/reports.h"
+
+namespace firn {
+
+inline constexpr int kNodeReals = 4;  // velocity (2D: its third place is the mass) and mass
+
+template <int D>
+inline constexpr int kOutboxNodes = power(2 * kBlockEdge, D);
+
+/// Where a column begins in one tile, or in the whole table; null for a column that the table does not have.
+template <class Real>
+using ColumnPointers = std::array<Real*, kColumnCount>;
+
+/// Projects the state of one tile of particles and writes its Kirchhoff stress, a symmetric column's tile.
+template <class Real>
+using MaterialKernel = void (*)(const void* model, const ColumnPointers<Real>& tile, Real dt, Real* tau,
+                                MaterialReport& report);
+
+/// Seconds of one block by stage.
+struct StageTimes {
+  double gather = 0, material = 0, scatter = 0;
+};
+
+/// The particles of one material in the block.
+template <class Real>
+struct BatchTask {
+  ColumnPointers<Real> columns;  // of the whole table
+  std::size_t first, last;       // particles
+  MaterialKernel<Real> update;
+  const void* model;
+  MaterialReport* report;
+};
+
+template <class Real, int D>
+struct BlockTask {
+  std::span<const BatchTask<Real>> batches;
+  BlockCoord<D> block;
+  std::array<const Real*, kNeighbours<D>> velocities;  // of each grid block: 4^D nodes of kNodeReals
+  Real* outbox;                                        // 8^D nodes of kNodeReals
+  Real h;                                              // m
+  Real dt;                                             // s, of the step that ends
+  Real next;                                           // s, of the step that begins: its forces are scattered
+  Motion motion;
+  StageTimes* times;  // null: not taken
+};
+
+/// The kernels of one transfer scheme.
+template <class Real, int D>
+struct TransferKernels {
+  using Kernel = void (*)(BlockTask<Real, D>&);
+  Kernel begin;   // particles at rest in memory -> outbox: stress, then P2G for a step of `next`
+  Kernel fused;   // G2P of `dt`, return map, P2G for `next`; velocities of particles are not kept
+  Kernel finish;  // G2P of `dt`, return map; everything is kept
+  Kernel adjust;  // adds the forces of a further `next` (negative: takes back) to the outbox
+};
+
+}  // namespace firn

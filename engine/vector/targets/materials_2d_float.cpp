@@ -1,0 +1,3 @@
+#define FIRN_REAL float
+#define FIRN_DIMENSION 2
+#include "engine/vector/targets/materials.inl"

@@ -1,0 +1,68 @@
+// The kernels of one tile of particles: where each begins in the scratch of its block, and its weights.
+#pragma once
+
+#include "engine/particles/tile.h"
+#include "engine/vector/kernels.h"
+#include "engine/vector/rows.h"
+
+namespace firn::FIRN_ISA {
+
+/// One register of particles.
+template <class Real>
+using Lane = Wide<Real, 1>;
+template <class Real>
+inline constexpr int kLanes = Lane<Real>::kLanes;
+inline constexpr int kTileSize = static_cast<int>(kTile);
+inline constexpr int kScratchEdge = 2 * kBlockEdge;
+
+/// Particle after particle, four numbers each.
+template <class Real>
+using Quads = Real[kTileSize * kQuad];
+
+template <class Real>
+HWY_INLINE void store_quads(const Lane<Real>& a, const Lane<Real>& b, const Lane<Real>& c, const Lane<Real>& d,
+                            Real* out) {
+  hn::StoreInterleaved4(a.v[0], b.v[0], c.v[0], d.v[0], typename Lane<Real>::Tag(), out);
+}
+template <class Real>
+HWY_INLINE void load_quads(const Real* in, Lane<Real> (&out)[4]) {
+  hn::LoadInterleaved4(typename Lane<Real>::Tag(), in, out[0].v[0], out[1].v[0], out[2].v[0], out[3].v[0]);
+}
+
+template <class Real, int D, bool kGradient>
+struct TileStencil {
+  alignas(64) Quads<Real> w[D];                    // of the three nodes along each axis
+  alignas(64) Quads<Real> dw[kGradient ? D : 1];   // their derivatives by x/h
+  alignas(64) std::int32_t first[kTileSize];       // of the scratch's numbers: the particle's first node
+  alignas(64) Real f[D][kTileSize];                // x/h less the middle node, in [-1/2, 1/2)
+
+  /// `position`: the tile's column. Particles that are not where their block's scratch reaches (not finite,
+  /// say) get a place in it all the same; the pass counts them as invalid.
+  HWY_INLINE void place(const Real* position, Real inverse_h, const BlockCoord<D>& block) {
+    using L = Lane<Real>;
+    for (int at = 0; at < kTileSize; at += kLanes<Real>) {
+      L index(0);
+      for (int d = 0; d < D; ++d) {
+        const L cell = L::load(position + d * kTileSize + at) * L(inverse_h);
+        const L base = floor(cell - L(0.5));
+        const L local = base - L(block[static_cast<std::size_t>(d)] * kBlockEdge - 1);
+        index = index * L(kScratchEdge) + min(max(local, L(0)), L(kScratchEdge - 3));
+        const L x = cell - base - L(1);
+        x.store(f[d] + at);
+        const L half(0.5), low = half - x, high = half + x;
+        store_quads<Real>(half * low * low, L(0.75) - x * x, half * high * high, L(0), w[d] + at * kQuad);
+        if constexpr (kGradient) store_quads<Real>(-low, L(-2) * x, high, L(0), dw[d] + at * kQuad);
+      }
+      const auto numbers = index * L(kQuad);
+      if constexpr (sizeof(Real) == 4) {
+        const hn::RebindToSigned<typename L::Tag> tag;
+        hn::Store(hn::ConvertTo(tag, numbers.v[0]), tag, first + at);
+      } else {
+        const hn::Rebind<std::int32_t, typename L::Tag> tag;
+        hn::Store(hn::DemoteTo(tag, numbers.v[0]), tag, first + at);
+      }
+    }
+  }
+};
+
+}  // namespace firn::FIRN_ISA

@@ -1,0 +1,322 @@
+// The block kernels of the production path: grid to particles, return map, particles to grid, one tile of 16
+// particles after the other while it is in cache. The formulas are those of engine/passes (p2g.h, g2p.h);
+// lanes hold sixteen particles for what is per particle, rows hold one particle's nodes for what is per node.
+#pragma once
+
+#include <chrono>
+
+#include "engine/passes/transfer.h"
+#include "engine/vector/row_kernels.h"
+
+namespace firn::FIRN_ISA {
+
+/// What passes from stage to stage of one tile.
+template <class Real, int D, class Transfer>
+struct TileWork {
+  static constexpr bool kGradient = !Transfer::moments;
+  using Gathered = Records<D, Transfer::affine, kGradient>;  // of the gather and of the scatter alike
+  TileStencil<Real, D, kGradient> stencil;
+  alignas(64) Quads<Real> record[Gathered::kCount];
+  alignas(64) Real v[D][kTileSize];
+  alignas(64) Real C[D * D][kTileSize];
+  alignas(64) Real tau[D * (D + 1) / 2][kTileSize];
+};
+
+constexpr int symmetric_index(int r, int c, int d) {
+  const int low = r < c ? r : c, high = r < c ? c : r;
+  return low * d - low * (low - 1) / 2 + (high - low);
+}
+
+/// The tile's columns, by name.
+template <class Real, int D>
+struct TileView {
+  const ColumnPointers<Real>& columns;
+
+  HWY_INLINE Real* at(Column c, int component = 0) const {
+    return columns[static_cast<std::size_t>(c)] + component * kTileSize;
+  }
+};
+
+/// The largest of everything over the tiles of a block, lane by lane.
+template <class Real>
+struct LaneMotion {
+  Lane<Real> speed2{0}, displacement{0};
+  std::int64_t invalid = 0;
+};
+
+/// v, C, x and the trial F_E of the first `n` particles of a tile.
+template <class Real, int D, class Transfer>
+HWY_INLINE void gather_tile(const BlockTask<Real, D>& task, const TileView<Real, D>& tile, int n, const Real* nodes,
+                            TileWork<Real, D, Transfer>& work, LaneMotion<Real>& motion) {
+  using L = Lane<Real>;
+  using Work = TileWork<Real, D, Transfer>;
+  using Out = typename Work::Gathered;
+  work.stencil.place(tile.at(Column::position), Real(1) / task.h, task.block);
+  for (int p = 0; p < n; ++p)
+    gather_rows<Real, D, Transfer::affine, Work::kGradient>(work.stencil, nodes, p, work.record);
+
+  const L dt(task.dt), inverse_h(Real(1) / task.h), reach(task.h * Real(kMaxCell - 2 * kBlockEdge));
+  for (int at = 0; at < kTileSize; at += kLanes<Real>) {
+    L q[4], v[D], G[D][D];  // G: dt times the velocity gradient
+    load_quads(work.record[0] + at * kQuad, q);
+    for (int c = 0; c < D; ++c) v[c] = q[c];
+    if constexpr (Transfer::affine)
+      for (int d = 0; d < D; ++d) {
+        load_quads(work.record[Out::kMoment + d] + at * kQuad, q);
+        const L f = L::load(work.stencil.f[d] + at);
+        for (int c = 0; c < D; ++c) {
+          const L C = (L(4) * inverse_h) * (q[c] - f * v[c]);
+          C.store(work.C[c * D + d] + at);
+          if constexpr (Transfer::moments) G[c][d] = dt * C;
+        }
+      }
+    if constexpr (!Transfer::moments)
+      for (int d = 0; d < D; ++d) {
+        load_quads(work.record[Out::kGradient + d] + at * kQuad, q);
+        for (int c = 0; c < D; ++c) G[c][d] = (dt * inverse_h) * q[c];
+      }
+
+    L extent(0), speed2(0), finite(0);
+    for (int c = 0; c < D; ++c) {
+      Real* x = tile.at(Column::position, c) + at;
+      const L step = dt * v[c], moved = L::load(x) + step;
+      moved.store(x);
+      v[c].store(work.v[c] + at);
+      extent = max(abs(moved), extent);
+      motion.displacement = max(abs(step), motion.displacement);
+      speed2 = speed2 + v[c] * v[c];
+      finite = finite + moved;
+    }
+    motion.speed2 = max(speed2, motion.speed2);
+    for (int j = 0; j < D; ++j) {
+      L F[D];
+      for (int k = 0; k < D; ++k) F[k] = L::load(tile.at(Column::elastic_deformation, k * D + j) + at);
+      for (int i = 0; i < D; ++i) {
+        L trial = F[i];
+        for (int k = 0; k < D; ++k) trial = trial + G[i][k] * F[k];
+        trial.store(tile.at(Column::elastic_deformation, i * D + j) + at);
+        finite = finite + trial;
+      }
+    }
+    // Written so that a NaN counts; a maximum would lose it.
+    const auto valid = extent + L(0) * (speed2 + finite) <= reach;
+    motion.invalid += kLanes<Real> - count(valid);
+  }
+}
+
+/// Momentum and the impulse of the stress over `dt`, with `motion` false the impulse alone.
+template <class Real, int D, class Transfer, bool motion>
+HWY_INLINE void scatter_tile(const BlockTask<Real, D>& task, const TileView<Real, D>& tile, int n,
+                             TileWork<Real, D, Transfer>& work, Real* nodes) {
+  using L = Lane<Real>;
+  using Work = TileWork<Real, D, Transfer>;
+  using In = typename Work::Gathered;
+  work.stencil.place(tile.at(Column::position), Real(1) / task.h, task.block);
+  const L h(task.h), impulse(-task.next / task.h), zero(0);
+  const auto store = [&](int k, int at, const L (&a)[D]) HWY_ATTR {
+    store_quads<Real>(a[0], a[1], D == 3 ? a[D - 1] : zero, zero, work.record[k] + at * kQuad);
+  };
+  for (int at = 0; at < kTileSize; at += kLanes<Real>) {
+    const L scale = impulse * L::load(tile.at(Column::volume) + at);
+    const L m = motion ? L::load(tile.at(Column::mass) + at) : zero;
+    L b[D];
+    for (int c = 0; c < D; ++c) b[c] = motion ? m * L::load(work.v[c] + at) : zero;
+    for (int d = 0; d < D; ++d) {
+      L A[D], T[D];
+      for (int c = 0; c < D; ++c) {
+        T[c] = scale * L::load(work.tau[symmetric_index(c, d, D)] + at);
+        if constexpr (Transfer::affine) {
+          A[c] = motion ? (m * h) * L::load(work.C[c * D + d] + at) : zero;
+          if constexpr (Transfer::moments) A[c] = A[c] + L(4) * T[c];
+          b[c] = b[c] - A[c] * L::load(work.stencil.f[d] + at);
+        }
+      }
+      if constexpr (Transfer::affine) store(In::kMoment + d, at, A);
+      if constexpr (!Transfer::moments) store(In::kGradient + d, at, T);
+    }
+    store_quads<Real>(b[0], b[1], D == 3 ? b[D - 1] : m, D == 3 ? m : zero, work.record[0] + at * kQuad);
+  }
+  for (int p = 0; p < n; ++p)
+    scatter_rows<Real, D, Transfer::affine, Work::kGradient>(work.stencil, work.record, p, nodes);
+}
+
+/// A tile that the block shares with its neighbours is worked on in a copy: the block's own particles first,
+/// behind them copies of the first one, without mass and volume.
+template <class Real, int D>
+class PartialTile {
+ public:
+  PartialTile(const ColumnPointers<Real>& tile, int first, int last) : tile_(tile), first_(first), count_(last - first) {
+    Real* next = values_;
+    for (int c = 0; c < kColumnCount; ++c) {
+      const auto column = static_cast<Column>(c);
+      copy_[static_cast<std::size_t>(c)] = nullptr;
+      if (tile[static_cast<std::size_t>(c)] == nullptr) continue;
+      copy_[static_cast<std::size_t>(c)] = next;
+      const bool extensive = column == Column::mass || column == Column::volume;
+      const Real* from = tile[static_cast<std::size_t>(c)] + first;
+      for (int k = 0; k < components(column, D); ++k, from += kTileSize, next += kTileSize)
+        for (int p = 0; p < kTileSize; ++p) next[p] = p < count_ ? from[p] : extensive ? Real(0) : from[0];
+    }
+  }
+  void write_back() const {
+    for (int c = 0; c < kColumnCount; ++c) {
+      const Real* from = copy_[static_cast<std::size_t>(c)];
+      if (from == nullptr) continue;
+      Real* to = tile_[static_cast<std::size_t>(c)] + first_;
+      for (int k = 0; k < components(static_cast<Column>(c), D); ++k, from += kTileSize, to += kTileSize)
+        for (int p = 0; p < count_; ++p) to[p] = from[p];
+    }
+  }
+  const ColumnPointers<Real>& columns() const { return copy_; }
+  int count() const { return count_; }
+
+ private:
+  static constexpr int all_components() {
+    int sum = 0;
+    for (int c = 0; c < kColumnCount; ++c) sum += components(static_cast<Column>(c), D);
+    return sum;
+  }
+  const ColumnPointers<Real>& tile_;
+  ColumnPointers<Real> copy_;
+  int first_, count_;
+  alignas(64) Real values_[all_components() * kTileSize];
+};
+
+/// What a pass does with each tile.
+enum class Stages { begin, fused, finish, adjust };
+
+/// Seconds by stage, or nothing.
+template <bool on>
+struct StageClock {
+  StageTimes* times;
+  std::chrono::steady_clock::time_point last{};
+  void start() {
+    if constexpr (on) last = std::chrono::steady_clock::now();
+  }
+  void lap(double StageTimes::*stage) {
+    if constexpr (on) {
+      const auto now = std::chrono::steady_clock::now();
+      times->*stage += std::chrono::duration<double>(now - last).count();
+      last = now;
+    }
+  }
+};
+
+template <class Real, int D, class Transfer, Stages stages, bool timed>
+HWY_INLINE void run_tile(const BlockTask<Real, D>& task, const BatchTask<Real>& batch, const ColumnPointers<Real>& columns,
+                         int n, const Real* in, Real* out, TileWork<Real, D, Transfer>& work, LaneMotion<Real>& motion) {
+  using L = Lane<Real>;
+  constexpr bool gathers = stages == Stages::fused || stages == Stages::finish;
+  constexpr bool scatters = stages != Stages::finish;
+  const TileView<Real, D> tile{columns};
+  StageClock<timed> clock{task.times};
+  clock.start();
+  if constexpr (gathers) {
+    gather_tile<Real, D, Transfer>(task, tile, n, in, work, motion);
+    clock.lap(&StageTimes::gather);
+  }
+  batch.update(batch.model, columns, gathers ? task.dt : Real(0), work.tau[0], *batch.report);
+  clock.lap(&StageTimes::material);
+  if constexpr (stages == Stages::begin)
+    for (int at = 0; at < kTileSize; at += kLanes<Real>) {
+      for (int c = 0; c < D; ++c) L::load(tile.at(Column::velocity, c) + at).store(work.v[c] + at);
+      if constexpr (Transfer::affine)
+        for (int c = 0; c < D * D; ++c) L::load(tile.at(Column::affine, c) + at).store(work.C[c] + at);
+    }
+  if constexpr (stages == Stages::finish)
+    for (int at = 0; at < kTileSize; at += kLanes<Real>) {
+      for (int c = 0; c < D; ++c) L::load(work.v[c] + at).store(tile.at(Column::velocity, c) + at);
+      if constexpr (Transfer::affine)
+        for (int c = 0; c < D * D; ++c) L::load(work.C[c] + at).store(tile.at(Column::affine, c) + at);
+      if (columns[static_cast<std::size_t>(Column::stress)] != nullptr)
+        for (int c = 0; c < D * (D + 1) / 2; ++c) L::load(work.tau[c] + at).store(tile.at(Column::stress, c) + at);
+    }
+  if constexpr (scatters) {
+    scatter_tile<Real, D, Transfer, stages != Stages::adjust>(task, tile, n, work, out);
+    clock.lap(&StageTimes::scatter);
+  }
+}
+
+template <class Real, int D>
+HWY_INLINE void load_scratch(const BlockTask<Real, D>& task, Real* scratch) {
+  // Along an axis: the last node of the lower neighbour, the block's four, three of the upper neighbour.
+  constexpr int kCount[3] = {1, 4, 3}, kFrom[3] = {3, 0, 0};
+  constexpr int kRow = kBlockEdge * kNodeReals;
+  const auto copy_line = [&](const Real* const* blocks, int line, Real* to) HWY_ATTR {
+    for (int b = 0; b < 3; ++b) {
+      const Real* from = blocks[b] + line * kRow + kFrom[b] * kNodeReals;
+      for (int n = 0; n < kCount[b]; ++n, to += kQuad) Quad<Real>::load(from + n * kNodeReals).store(to);
+    }
+  };
+  const Real* const* blocks = task.velocities.data();
+  for (int i = 0; i < kScratchEdge; ++i) {
+    const int block_i = (i + 3) / 4, local_i = (i + 3) % 4;
+    if constexpr (D == 2) {
+      copy_line(blocks + block_i * 3, local_i, scratch + i * kScratchEdge * kQuad);
+    } else {
+      for (int j = 0; j < kScratchEdge; ++j)
+        copy_line(blocks + (block_i * 3 + (j + 3) / 4) * 3, local_i * kBlockEdge + (j + 3) % 4,
+                  scratch + (i * kScratchEdge + j) * kScratchEdge * kQuad);
+    }
+  }
+}
+
+template <class Real, int D, class Transfer, Stages stages, bool timed>
+HWY_INLINE void run_tiles(BlockTask<Real, D>& task, const Real* in, Real* out) {
+  TileWork<Real, D, Transfer> work;
+  // Particles beyond the last one of a partial tile are not gathered; what stands for them is zero.
+  for (auto& quads : work.record)
+    for (Real& x : quads) x = 0;
+  LaneMotion<Real> motion;
+  for (const BatchTask<Real>& batch : task.batches)
+    for (std::size_t first = batch.first; first < batch.last;) {
+      const std::size_t tile_first = first / kTile * kTile, last = std::min(batch.last, tile_first + kTile);
+      ColumnPointers<Real> columns;
+      for (int c = 0; c < kColumnCount; ++c) {
+        Real* const column = batch.columns[static_cast<std::size_t>(c)];
+        columns[static_cast<std::size_t>(c)] =
+            column == nullptr ? nullptr
+                              : column + tile_first * static_cast<std::size_t>(components(static_cast<Column>(c), D));
+      }
+      if (last - first == kTile) {
+        run_tile<Real, D, Transfer, stages, timed>(task, batch, columns, kTileSize, in, out, work, motion);
+      } else {
+        PartialTile<Real, D> part(columns, static_cast<int>(first - tile_first), static_cast<int>(last - tile_first));
+        run_tile<Real, D, Transfer, stages, timed>(task, batch, part.columns(), part.count(), in, out, work, motion);
+        part.write_back();
+      }
+      first = last;
+    }
+  task.motion.max_speed = std::sqrt(static_cast<double>(largest(motion.speed2)));
+  task.motion.max_displacement = static_cast<double>(largest(motion.displacement));
+  task.motion.invalid = motion.invalid;
+}
+
+template <class Real, int D, class Transfer, Stages stages>
+void run_block(BlockTask<Real, D>& task) {
+  constexpr int kReals = kOutboxNodes<D> * kQuad;
+  // A row of the last line reaches one node beyond it.
+  alignas(64) Real in[kReals + kQuad], out[kReals + kQuad];
+  if constexpr (stages == Stages::fused || stages == Stages::finish) {
+    load_scratch(task, in);
+    for (int i = 0; i < kQuad; ++i) in[kReals + i] = 0;
+  }
+  if constexpr (stages == Stages::adjust)
+    for (int i = 0; i < kReals; ++i) out[i] = task.outbox[i];
+  else if constexpr (stages != Stages::finish)
+    for (int i = 0; i < kReals; ++i) out[i] = 0;
+  if (task.times != nullptr)
+    run_tiles<Real, D, Transfer, stages, true>(task, in, out);
+  else
+    run_tiles<Real, D, Transfer, stages, false>(task, in, out);
+  if constexpr (stages != Stages::finish)
+    for (int i = 0; i < kReals; ++i) task.outbox[i] = out[i];
+}
+
+template <class Real, int D, class Transfer>
+TransferKernels<Real, D> transfer_kernels() {
+  return {run_block<Real, D, Transfer, Stages::begin>, run_block<Real, D, Transfer, Stages::fused>,
+          run_block<Real, D, Transfer, Stages::finish>, run_block<Real, D, Transfer, Stages::adjust>};
+}
+
+}  // namespace firn::FIRN_ISA
