@@ -10,8 +10,8 @@
 #include "engine/output/diagnostics.h"
 #include "engine/output/point_cache.h"
 #include "tests/engine/output/fault_injection.h"
-#include "tests/engine/output/sample_frame.h"
 #include "tests/engine/output/temporary_folder.h"
+#include "tests/support/sample_frame.h"
 
 namespace firn {
 namespace {

@@ -5,7 +5,8 @@
 #include <catch2/catch.hpp>
 #include <tbb/global_control.h>
 
-#include "tests/engine/output/sample_frame.h"
+#include "engine/particles/frame_snapshot.h"
+#include "tests/support/sample_frame.h"
 
 namespace firn {
 namespace {
@@ -42,6 +43,13 @@ TEST_CASE("the content hash does not depend on the order of the particles or on 
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     CHECK(content_hash(original.view()) == hash);
   }
+}
+
+TEST_CASE("the content hash of a snapshot is that of the frame") {
+  const SampleFrame sample(kParticles);
+  FrameSnapshot snapshot;
+  snapshot.take(sample.view());
+  CHECK(content_hash(snapshot.view()) == content_hash(sample.view()));
 }
 
 TEST_CASE("the content hash sees one changed bit, swapped values and a lost particle") {

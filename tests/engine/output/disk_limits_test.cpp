@@ -15,8 +15,8 @@
 #include "engine/output/checked_file.h"
 #include "engine/output/output_folder.h"
 #include "engine/output/point_cache.h"
-#include "tests/engine/output/sample_frame.h"
 #include "tests/engine/output/temporary_folder.h"
+#include "tests/support/sample_frame.h"
 
 namespace firn {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "engine/base/error.h"
 #include "tests/engine/output/read_cache.h"
-#include "tests/engine/output/sample_frame.h"
 #include "tests/engine/output/temporary_folder.h"
+#include "tests/support/sample_frame.h"
 
 namespace firn {
 namespace {
