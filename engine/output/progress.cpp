@@ -34,7 +34,7 @@ void Progress::frame_done(const State& done) {
     if (frame_seconds_.size() > kFramesRemembered) frame_seconds_.pop_front();
   }
   if (settings_.is_terminal) {
-    draw(state);
+    if (state.frame >= drawn_frame_) draw(state);
   } else {
     out_ << line(state) << '\n' << std::flush;
   }
@@ -51,6 +51,7 @@ void Progress::draw(const State& state) {
   const auto width = static_cast<std::size_t>(std::max(settings_.columns - 1, 1));
   out_ << '\r' << line(state).substr(0, width) << "\x1b[K" << std::flush;
   drawn_at_ = state.seconds;
+  drawn_frame_ = state.frame;
   line_open_ = true;
 }
 

@@ -36,6 +36,8 @@ class Progress {
 
   /// May be called after every step: draws at most ten times a second, and nothing when not on a terminal.
   void step(const State& state);
+  /// In the order of the frames. Steps of later ones may have been shown already: the line on a terminal does
+  /// not go back then.
   void frame_done(const State& state);
   /// Ends the redrawn line, so that what is printed next starts on a line of its own. May be called more than
   /// once.
@@ -50,6 +52,7 @@ class Progress {
   std::ostream& out_;
   Settings settings_;
   double drawn_at_ = -1;  // s
+  int drawn_frame_ = 0;
   bool line_open_ = false;
   State last_frame_state_;
   std::deque<double> frame_seconds_;  // of the latest frames: what the next ones will take

@@ -40,6 +40,14 @@ class FileTooLarge(Disk):
         self.assert_fails_cleanly(self.path("out"), preexec_fn=lambda: resource.setrlimit(
             resource.RLIMIT_FSIZE, (limit, limit)))
 
+    def test_a_run_does_not_compute_the_next_frame_when_the_one_before_it_cannot_be_written(self):
+        # 64,000 particles; the second frame would take many minutes.
+        done = self.firn("run", self.scene, "--out", self.path("out"), "--set", "simulation.cell_size=0.02", "--set",
+                         "simulation.frame_rate=2e-3", "--set", "simulation.duration=500", code=4, timeout=30,
+                         preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096)))
+        self.assertIn(frame_name(1), done.stderr)
+        self.assert_only_whole_frames(self.path("out"), [])
+
 
 class DiskFull(Disk):
     def test_a_disk_that_fills_up(self):

@@ -6,7 +6,7 @@ import pty
 import re
 import subprocess
 
-from firn_cli import BLOCK, SNOW, FirnTest, programs, diagnostics, hashes, main, run_record
+from firn_cli import BLOCK, SNOW, FirnTest, programs, diagnostics, frame_name, hashes, main, run_record, start
 
 COLUMNS = ("frame time steps dt_min dt_max particles mass momentum_x momentum_y momentum_z angular_x angular_y "
            "angular_z kinetic elastic gravity dissipated total max_speed min_J max_J").split()
@@ -88,7 +88,11 @@ class Reporting(FirnTest):
         os.close(ours)
         self.assertEqual((run.communicate()[0], run.returncode), (b"", 0))
         drawn = shown.decode().split("\r\n")
-        self.assertRegex(drawn[0], r"^\rframe 1/5 .*\x1b\[K(\rframe \d/5 .*\x1b\[K)+$")
+        self.assertRegex(drawn[0], r"^(\rframe \d/5 .*\x1b\[K){2,}$")
+        # The first frame may be written while steps of the second are shown already.
+        frames = [int(number) for number in re.findall(r"\rframe (\d)", drawn[0])]
+        self.assertEqual(frames, sorted(frames))
+        self.assertEqual(frames[-1], 5)
         self.assertTrue(drawn[1].startswith("finished: "), drawn)
 
     def test_run_json_holds_the_scene_as_resolved_and_what_the_run_took(self):
@@ -105,9 +109,26 @@ class Reporting(FirnTest):
             self.assertEqual(os.path.getsize(file), frame["bytes"])
             self.assertTrue(re.fullmatch("[0-9a-f]{16}", frame["content_xxh3"]))
         seconds = record["seconds"]
-        parts = [seconds["seeding"], seconds["output"], *seconds["passes"].values()]
+        # What follows one another; the frames are written beside it.
+        parts = [seconds["seeding"], seconds["snapshot"], seconds["output_wait"], *seconds["passes"].values()]
         self.assertTrue(all(part >= 0 for part in parts))
         self.assertLessEqual(sum(parts), seconds["total"])
+        self.assertTrue(0 < seconds["output"] <= seconds["total"])
+
+    def test_a_frame_is_reported_when_it_is_on_disk(self):
+        out = self.path("out")
+        # A frame of 64,000 particles, which takes longer to write than to notice that it is not there.
+        run = start("run", self.scene, "--out", out, "--set", "simulation.cell_size=0.02", "--set",
+                    "simulation.duration=0.01", "--set", "simulation.frame_rate=400")
+        self.addCleanup(run.communicate)
+        seen = 0
+        for line in run.stderr:
+            if line.startswith("frame "):
+                seen += 1
+                self.assertTrue(line.startswith(f"frame {seen}/5 "), line)
+                self.assertTrue(os.path.exists(os.path.join(out, frame_name(seen))), line)
+                self.assertGreaterEqual(len(diagnostics(out)[1]), seen)
+        self.assertEqual((run.wait(), seen), (0, 5))
 
 
 class Diagnostics(FirnTest):

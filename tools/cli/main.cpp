@@ -45,7 +45,9 @@ void add_run(CLI::App& app, Action& action) {
   add_overrides(c, options->overrides);
   c->add_option("--frames", options->frames, "Write only frames A to B and end after B; frame 1 is t = 0")
       ->type_name("A:B");
-  c->add_option("--threads", options->threads, "Threads; all cores if left out")->check(CLI::Range(1, 1024));
+  c->add_option("--threads", options->threads,
+                "Threads that simulate; all cores if left out. One more writes the frames")
+      ->check(CLI::Range(1, 1024));
   c->add_option("--max-memory", *memory, "Refuse to start if it would need more, as in 8G")
       ->type_name("SIZE");
   c->add_flag("--overwrite", options->overwrite, "Replace the frames of an earlier run in the same folder");

@@ -13,18 +13,15 @@
 
 #include "engine/base/error.h"
 #include "engine/base/parallel.h"
-#include "engine/output/content_hash.h"
-#include "engine/output/diagnostics.h"
 #include "engine/output/json_file.h"
 #include "engine/output/output_folder.h"
-#include "engine/output/point_cache.h"
-#include "engine/output/progress.h"
 #include "engine/scene/estimate.h"
 #include "engine/scene/reader.h"
 #include "engine/scene/seed_check.h"
 #include "engine/simulation/run.h"
 #include "tools/cli/memory.h"
 #include "tools/cli/plan.h"
+#include "tools/cli/run_output.h"
 #include "tools/cli/units.h"
 #include "tools/cli/version.h"
 
@@ -93,17 +90,15 @@ int terminal_columns() {
   return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 20 ? size.ws_col : 80;
 }
 
-/// What a run has done so far, for progress, run.json and the last line.
-struct Account {
+struct RunTimes {
   Clock::time_point start = Clock::now();
-  double seeding_seconds = 0, output_seconds = 0;
-  std::int64_t steps = 0;
-  std::uint64_t written_bytes = 0;
-  nlohmann::json frames = nlohmann::json::array();
+  double seeding = 0;  // s
 };
 
+/// `output` after its finish().
 nlohmann::json run_record(const Plan& plan, const Estimate& e, const Simulation& simulation,
-                          const Account& account, int threads, std::string_view state) {
+                          const RunOutput& output, const RunTimes& times, int threads,
+                          std::string_view state) {
   nlohmann::json passes;
   double stepping = 0;
   for (int p = 0; p < PassTimes::count; ++p) {
@@ -111,29 +106,49 @@ nlohmann::json run_record(const Plan& plan, const Estimate& e, const Simulation&
     passes[std::string(PassTimes::names[static_cast<std::size_t>(p)])] = seconds;
     stepping += seconds;
   }
-  const double updates = static_cast<double>(simulation.particles()) * static_cast<double>(account.steps);
+  const double updates = static_cast<double>(simulation.particles()) * static_cast<double>(output.steps());
+  const FrameWriter::Times writing = output.times();
   return {{"versions", {{"firn", kVersion}, {"compiler", __VERSION__}}},
           {"scene", plan.scene.as_run},
           {"state", state},
           {"plan", plan_json(plan, e)},
           {"threads", threads},
           {"particles", simulation.particles()},
-          {"steps", account.steps},
+          {"steps", output.steps()},
           {"sorts", simulation.sorts()},
           {"seconds",
-           {{"total", seconds_since(account.start)},
-            {"seeding", account.seeding_seconds},
-            {"output", account.output_seconds},
+           {{"total", seconds_since(times.start)},
+            {"seeding", times.seeding},
+            {"snapshot", writing.snapshot},
+            {"output_wait", writing.wait},
+            {"output", writing.sink},  // while the passes run, but for output_wait
             {"passes", passes}}},
           {"particle_updates_per_second", stepping > 0 ? updates / stepping : 0},
           {"bytes", simulation.bytes()},
-          {"frames", account.frames}};
+          {"frames", output.frames()}};
+}
+
+/// False when a signal stopped it. Every frame that was simulated is on disk then, and also when the
+/// simulation throws; when writing fails that is what it throws, since the frame concerned came first.
+bool simulate(Simulation& simulation, double rate, FrameRange range, RunOutput& output) {
+  const FrameSink sink = [&](const FrameView& frame) { output.write(frame); };
+  const StepListener listener = [&](int frame, double time, double dt) { output.stepped(frame, time, dt); };
+  const StopRequested stop = [&] { return g_signal != 0 || output.failed(); };
+  bool finished = false;
+  try {
+    finished = run_frames(simulation, rate, range.first, range.last, {&sink, 1}, listener, stop);
+  } catch (...) {
+    output.finish();
+    throw;
+  }
+  output.finish();
+  return finished;
 }
 
 }  // namespace
 
 int run_scene(const RunOptions& options) {
-  Account account;
+  RunTimes times;
   const int threads = options.threads > 0 ? options.threads : default_threads();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));
@@ -151,71 +166,35 @@ int run_scene(const RunOptions& options) {
 
   const Clock::time_point seeding = Clock::now();
   const std::unique_ptr<Simulation> simulation = seeded_simulation(plan, warnings);
-  account.seeding_seconds = seconds_since(seeding);
+  times.seeding = seconds_since(seeding);
   for (const std::string& warning : warnings) std::cerr << "warning: " << warning << '\n';
 
   g_signal = 0;
   std::signal(SIGINT, remember_signal);
   std::signal(SIGTERM, remember_signal);
-  folder.remove_earlier_run();
-  Diagnostics diagnostics(folder.path() / "diagnostics.csv", {kCounters.begin(), kCounters.end()});
-  Progress progress(std::cerr,
-                    {isatty(STDERR_FILENO) != 0, terminal_columns(), 1, range.last, simulation->particles()});
-  Progress::State shown;
-  const auto account_to = [&] {
-    shown.steps = account.steps;
-    shown.written_bytes = account.written_bytes;
-    shown.seconds = seconds_since(account.start);
-  };
-
   const double rate = plan.scene.simulation.frame_rate;
-  const FrameSink write_frame = [&](const FrameView& frame) {
-    const Clock::time_point start = Clock::now();
-    const auto file = folder.frame_file(frame.frame);
-    const std::uint64_t bytes =
-        write_point_cache(file, frame, {plan.cell_size(), rate, std::string("firn ") + kVersion});
-    diagnostics.append(frame);
-    account.written_bytes += bytes;
-    account.frames.push_back({{"frame", frame.frame},
-                              {"time", frame.time},
-                              {"file", file.filename().string()},
-                              {"bytes", bytes},
-                              {"content_xxh3", fmt::format("{:016x}", content_hash(frame))}});
-    account.output_seconds += seconds_since(start);
-    shown.frame = frame.frame;
-    account_to();
-    progress.frame_done(shown);
-  };
-  const StepListener listener = [&](int frame, double time, double dt) {
-    ++account.steps;
-    shown.frame = frame;
-    shown.dt = dt;
-    shown.fraction = 1 - ((frame - 1) / rate - time) * rate;
-    account_to();
-    progress.step(shown);
-  };
+  RunOutput output(folder, {plan.cell_size(), rate, std::string("firn ") + kVersion},
+                   {isatty(STDERR_FILENO) != 0, terminal_columns(), 1, range.last, simulation->particles()},
+                   times.start);
   const auto record = [&](std::string_view state) {
-    progress.finish();
-    write_json(folder.path() / "run.json", run_record(plan, e, *simulation, account, threads, state));
+    write_json(folder.path() / "run.json", run_record(plan, e, *simulation, output, times, threads, state));
   };
 
   bool finished = false;
   try {
-    finished = run_frames(*simulation, rate, range.first, range.last, {&write_frame, 1}, listener,
-                          [] { return g_signal != 0; });
+    finished = simulate(*simulation, rate, range, output);
   } catch (const Error& error) {
-    progress.finish();
     if (error.code() == ExitCode::numerics) record("stopped: numerics");
     throw;
   }
   record(finished ? "finished" : "stopped by a signal");
-  const nlohmann::json summary = run_record(plan, e, *simulation, account, threads, "");
+  const nlohmann::json summary = run_record(plan, e, *simulation, output, times, threads, "");
   std::cerr << fmt::format(
       "{} {} frames, {} particles, {} steps in {}: {:.2f} M particle updates/s; {} in {}\n",
-      finished ? "finished:" : "stopped:", account.frames.size(),
-      grouped(static_cast<double>(simulation->particles())), grouped(static_cast<double>(account.steps)),
-      duration_text(seconds_since(account.start)), summary["particle_updates_per_second"].get<double>() / 1e6,
-      bytes_text(static_cast<double>(account.written_bytes)), folder.path().string());
+      finished ? "finished:" : "stopped:", output.frames().size(),
+      grouped(static_cast<double>(simulation->particles())), grouped(static_cast<double>(output.steps())),
+      duration_text(seconds_since(times.start)), summary["particle_updates_per_second"].get<double>() / 1e6,
+      bytes_text(static_cast<double>(output.written_bytes())), folder.path().string());
   return finished ? 0 : 128 + g_signal;
 }
 

@@ -47,6 +47,19 @@ TEST_CASE("on a terminal progress redraws one line") {
         "\rframe 2/101  dt 0.0001 s  40 steps  13.33 M particles/s  4 min 57 s left  0 B written\x1b[K\n");
 }
 
+TEST_CASE(
+    "on a terminal progress does not go back to a frame that is written while the next one is computed") {
+  std::ostringstream out;
+  Progress progress(out, settings(true));
+  progress.step({.frame = 3, .fraction = 0.1, .dt = 1e-4, .steps = 41, .seconds = 3.1});
+  out.str("");
+  progress.frame_done({.frame = 2, .dt = 1e-4, .steps = 40, .written_bytes = 1000, .seconds = 3});
+  CHECK(out.str().empty());
+  progress.step({.frame = 3, .dt = 1e-4, .steps = 50, .written_bytes = 1000, .seconds = 4});
+  CHECK(out.str() ==
+        "\rframe 3/101  dt 0.0001 s  10 steps  10.00 M particles/s  4 min 57 s left  1.0 kB written\x1b[K");
+}
+
 TEST_CASE("progress never draws wider than the terminal") {
   std::ostringstream out;
   auto narrow = settings(true);
