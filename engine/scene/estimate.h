@@ -12,8 +12,8 @@ struct Estimate {
   double total_particles = 0;
   double blocks = 0;  // of the grid, at the start
   double particle_bytes = 0, grid_bytes = 0;
-  double peak_bytes =
-      0;  // what the run holds at most: particles, grid, sorting, seeding, one frame being written
+  /// What the run holds at most: particles, grid, sorting, and the frames on their way to disk.
+  double peak_bytes = 0;
   double disk_bytes = 0;    // all frames
   double wave_speed = 0;    // m/s, fastest P-wave at rest
   double speed = 0;         // m/s, fastest body or collider at the start
