@@ -18,6 +18,7 @@ LAYERS = [
     ["engine/base", "engine/math"],
     ["engine/particles", "engine/grid", "engine/shapes"],
     ["materials", "engine/passes", "engine/effects"],
+    ["engine/vector"],
     ["engine/scene"],
     ["engine/simulation", "engine/output"],
     ["tools"],
@@ -98,7 +99,7 @@ def check(root):
     for top in ("engine", "materials", "tools", "tests"):
         for folder, _, names in os.walk(os.path.join(root, top)):
             for name in sorted(names):
-                if not name.endswith((".h", ".cpp")):
+                if not name.endswith((".h", ".inl", ".cpp")):
                     continue
                 files += 1
                 path = os.path.relpath(os.path.join(folder, name), root)

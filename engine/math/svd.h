@@ -159,9 +159,9 @@ Svd<L, D> svd(const Matrix<L, D>& F) {
 
 namespace svd_detail {
 
-// One Jacobi rotation of the symmetric matrix with diagonal entries pp, qq and off-diagonal pq (to be removed),
-// rp, rq; the eigenvectors go along. The angle is rough, the rotation exactly normalised: what is left of pq
-// is removed by the next sweep, and V stays orthogonal.
+// One Jacobi rotation of the symmetric matrix with diagonal entries pp, qq and off-diagonal pq (to be
+// removed), rp, rq; the eigenvectors go along. The angle is rough, the rotation exactly normalised: what is
+// left of pq is removed by the next sweep, and V stays orthogonal.
 template <class L>
 inline void rotate_symmetric(L& pp, L& qq, L& pq, L& rp, L& rq, Vector<L, 3>& vp, Vector<L, 3>& vq) {
   const L d = pp - qq, o = pq + pq;
@@ -217,10 +217,10 @@ Matrix<L, D> chosen(const LaneMask<L>& mask, const Matrix<L, D>& a, const Matrix
 
 }  // namespace svd_detail
 
-/// The same with the singular values in any order, which isotropic functions do not care about: less than half
-/// the work of `svd` where F is near a rotation, as most elastic states are. By Jacobi on F^T F, which is
-/// accurate while the singular values are of one magnitude; the rest (inverted, flat or strongly stretched,
-/// not finite) is left to `svd`. An inverted F has its negative value last.
+/// The same with the singular values in any order, which isotropic functions do not care about: less than
+/// half the work of `svd` where F is near a rotation, as most elastic states are. By Jacobi on F^T F, which
+/// is accurate while the singular values are of one magnitude; the rest (inverted, flat or strongly
+/// stretched, not finite) is left to `svd`. An inverted F has its negative value last.
 template <class L, int D>
 Svd<L, D> svd_any_order(const Matrix<L, D>& F) {
   if constexpr (D < 3) {
@@ -235,8 +235,8 @@ Svd<L, D> svd_any_order(const Matrix<L, D>& F) {
       gram.sweep();
       for (int k = 0; k < 3; ++k)
         for (int i = 0; i < 3; ++i) gram.v[k][i] = select(done, before.v[k][i], gram.v[k][i]);
-      for (L Gram<L>::*s : {&Gram<L>::s00, &Gram<L>::s11, &Gram<L>::s22, &Gram<L>::s01, &Gram<L>::s12,
-                            &Gram<L>::s02})
+      for (L Gram<L>::*s :
+           {&Gram<L>::s00, &Gram<L>::s11, &Gram<L>::s22, &Gram<L>::s01, &Gram<L>::s12, &Gram<L>::s02})
         gram.*s = select(done, before.*s, gram.*s);
     }
     Svd<L, 3> out;
@@ -253,8 +253,9 @@ Svd<L, D> svd_any_order(const Matrix<L, D>& F) {
     }
     const L longest = max(max(length2[0], length2[1]), length2[2]);
     // s_mid s_min > s_max^2 / 8: below it the squares in F^T F cost digits.
-    const LaneMask<L> ordinary = (L(64) * length2[0] * length2[1] * length2[2] > longest * longest * longest) &
-                                 (longest > L(1e-6)) & gram.diagonal() & (determinant(out.U) > L(0));
+    const LaneMask<L> ordinary =
+        (L(64) * length2[0] * length2[1] * length2[2] > longest * longest * longest) & (longest > L(1e-6)) &
+        gram.diagonal() & (determinant(out.U) > L(0));
     if (any(!ordinary)) {
       const Svd<L, 3> rest = svd(F);
       out.U = chosen(ordinary, out.U, rest.U);

@@ -102,7 +102,8 @@ class ParticleTable {
   std::array<Real*, kColumnCount> pointers() {
     std::array<Real*, kColumnCount> out{};
     for (int c = 0; c < kColumnCount; ++c)
-      if (columns_.has(static_cast<Column>(c))) out[static_cast<std::size_t>(c)] = data_[static_cast<std::size_t>(c)].data();
+      if (columns_.has(static_cast<Column>(c)))
+        out[static_cast<std::size_t>(c)] = data_[static_cast<std::size_t>(c)].data();
     return out;
   }
 
@@ -159,16 +160,17 @@ class ParticleTable {
   template <int width>
   void reorder_column(const Values& from, Values& to, std::span<const std::uint32_t> source) const {
     constexpr std::size_t kGrain = 64;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, padded(size_) / kTile, kGrain), [&](const auto& tiles) {
-      for (std::size_t tile = tiles.begin(); tile < tiles.end(); ++tile) {
-        Real* out = to.data() + tile * width * kTile;
-        const std::size_t first = tile * kTile, n = std::min(size_ - first, kTile);
-        for (std::size_t i = 0; i < n; ++i) {
-          const Real* in = from.data() + tile_index(source[first + i], 0, width);
-          for (std::size_t c = 0; c < width; ++c) out[c * kTile + i] = in[c * kTile];
-        }
-      }
-    });
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, padded(size_) / kTile, kGrain),
+                      [&](const auto& tiles) {
+                        for (std::size_t tile = tiles.begin(); tile < tiles.end(); ++tile) {
+                          Real* out = to.data() + tile * width * kTile;
+                          const std::size_t first = tile * kTile, n = std::min(size_ - first, kTile);
+                          for (std::size_t i = 0; i < n; ++i) {
+                            const Real* in = from.data() + tile_index(source[first + i], 0, width);
+                            for (std::size_t c = 0; c < width; ++c) out[c * kTile + i] = in[c * kTile];
+                          }
+                        }
+                      });
   }
   static void copy(const Values& from, Values& to) {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, to.size(), 1 << 14), [&](const auto& range) {

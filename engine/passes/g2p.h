@@ -31,15 +31,14 @@ Motion gather(ParticleTable<Real, D>& particles, std::pair<std::size_t, std::siz
     auto change = Vector<Real, D>::zero();
     auto gradient_v = Matrix<Real, D>::zero();
     auto B = Matrix<Real, D>::zero();
-    stencil.for_each(
-        [&](std::size_t node, Real w, const Vector<Real, D>& gradient, const Vector<Real, D>& offset) {
-          const Vector<Real, D>& v_i = nodes.node[node].v;
-          v += w * v_i;
-          gradient_v =
-              gradient_v + outer(v_i, stencil.template force_gradient<Transfer>(w, gradient, offset));
-          if constexpr (Transfer::affine) B = B + outer(w * v_i, offset);
-          if constexpr (Transfer::increments) change += w * (v_i - before->node[node]);
-        });
+    stencil.for_each([&](std::size_t node, Real w, const Vector<Real, D>& gradient,
+                         const Vector<Real, D>& offset) {
+      const Vector<Real, D>& v_i = nodes.node[node].v;
+      v += w * v_i;
+      gradient_v = gradient_v + outer(v_i, stencil.template force_gradient<Transfer>(w, gradient, offset));
+      if constexpr (Transfer::affine) B = B + outer(w * v_i, offset);
+      if constexpr (Transfer::increments) change += w * (v_i - before->node[node]);
+    });
     const Vector<Real, D> x_new = x + dt * v;
     position.store(p, x_new);
     Vector<Real, D> v_new = v;

@@ -35,7 +35,8 @@ inline constexpr int kFirstNode[3] = {0, 0, 3}, kLastNode[3] = {3, 4, 4}, kFirst
 template <int axis, class Real, int D>
 void add_outbox(const Node<Real, D>* from, Node<Real, D>* to, const BlockCoord<D>& source) {
   const int s = source[axis];
-  constexpr int from_stride = power(2 * kBlockEdge, D - 1 - axis), to_stride = power(kBlockEdge, D - 1 - axis);
+  constexpr int from_stride = power(2 * kBlockEdge, D - 1 - axis),
+                to_stride = power(kBlockEdge, D - 1 - axis);
   from += kFirstPlace[s] * from_stride;
   for (int n = kFirstNode[s]; n < kLastNode[s]; ++n, from += from_stride) {
     if constexpr (axis + 1 < D) {

@@ -44,7 +44,8 @@ class Sorter {
   /// Calls f(piece, first, last) for as many pieces of [0, n) as there are threads.
   template <class F>
   static void for_pieces(std::size_t n, std::size_t pieces, F&& f) {
-    tbb::parallel_for(std::size_t{0}, pieces, [&](std::size_t k) { f(k, n * k / pieces, n * (k + 1) / pieces); });
+    tbb::parallel_for(std::size_t{0}, pieces,
+                      [&](std::size_t k) { f(k, n * k / pieces, n * (k + 1) / pieces); });
   }
 
   void find_occupied(std::span<const Batch<Real, D>> batches, Real h) {
@@ -109,7 +110,8 @@ class Sorter {
     batch.block_begin[occupied_.size()] = next;
     for_pieces(n, pieces_, [&](std::size_t k, std::size_t first, std::size_t last) {
       std::uint32_t* places = counts_.data() + k * buckets;
-      for (std::size_t p = first; p < last; ++p) source_[places[bucket_[p]]++] = static_cast<std::uint32_t>(p);
+      for (std::size_t p = first; p < last; ++p)
+        source_[places[bucket_[p]]++] = static_cast<std::uint32_t>(p);
     });
   }
 

@@ -48,7 +48,8 @@ class PlainSimulation final : public ParticleSimulation<Real, D> {
   void shorten(double) override {}  // each step puts its own forces on the grid
 
   std::size_t bytes() const override {
-    return this->table_bytes() + grid_.nodes.bytes() + grid_.before.bytes() + layout_.bytes() + sorter_.bytes();
+    return this->table_bytes() + grid_.nodes.bytes() + grid_.before.bytes() + layout_.bytes() +
+           sorter_.bytes();
   }
 
  private:

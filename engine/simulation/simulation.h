@@ -34,8 +34,8 @@ class Simulation {
   /// before it is then lost, and frames already written are not touched.
   ///
   /// `next`: the length of the step to follow, when it is to follow without a look at the particles (view) in
-  /// between, else 0. A path that fuses two steps already puts the next one's forces on the grid; it must then
-  /// be that long, unless `shorten` says otherwise first.
+  /// between, else 0. A path that fuses two steps already puts the next one's forces on the grid; it must
+  /// then be that long, unless `shorten` says otherwise first.
   virtual void step(double dt, double next = 0) = 0;
   /// Makes the announced next step `next` instead.
   virtual void shorten(double next) = 0;

@@ -55,7 +55,8 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
       });
     // Particles that may have left the block's scratch cannot be scattered before they are sorted again.
     announced_ = drift_ + reach < farthest ? next : 0;
-    timed(PassTimes::g2p, [&] { run_blocks(announced_ > 0 ? kernels_.fused : kernels_.finish, dt, announced_); });
+    timed(PassTimes::g2p,
+          [&] { run_blocks(announced_ > 0 ? kernels_.fused : kernels_.finish, dt, announced_); });
     time_ += dt;
     Motion motion;
     for (const Motion& m : motions_) motion.join(m);
@@ -141,7 +142,8 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
                  for (std::size_t b = range.begin(); b < range.end(); ++b) {
                    BlockNodes<Real, D> block{grid_.block(b), {}, layout_.coord(b), h};
                    collect<Real, D>(outboxes_, layout_.sources(b), block.nodes);
-                   if (update_block(block, dt, effects_)) bound.join(speed_bound<Real, D>(block.nodes, lightest_));
+                   if (update_block(block, dt, effects_))
+                     bound.join(speed_bound<Real, D>(block.nodes, lightest_));
                  }
                  return bound;
                },
@@ -177,7 +179,8 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
 
   void take_reports() {
     std::fill(reports_.begin(), reports_.end(), MaterialReport{});
-    for (std::size_t k = 0; k < block_reports_.size(); ++k) reports_[k % batches_.size()].join(block_reports_[k]);
+    for (std::size_t k = 0; k < block_reports_.size(); ++k)
+      reports_[k % batches_.size()].join(block_reports_[k]);
     this->take(reports_);
   }
 

@@ -44,8 +44,9 @@ std::optional<Isa> best_isa() {
     if (available(isa)) return isa;
     throw Error(ExitCode::environment, fmt::format("FIRN_ISA={}: this processor does not have it", wanted));
   }
-  throw Error(ExitCode::environment,
-              fmt::format("FIRN_ISA={}: unknown; allowed: avx512, avx2, sse4, none (the plain path)", wanted));
+  throw Error(
+      ExitCode::environment,
+      fmt::format("FIRN_ISA={}: unknown; allowed: avx512, avx2, sse4, none (the plain path)", wanted));
 }
 
 template <class Real, int D>

@@ -14,7 +14,8 @@ inline constexpr int kSideBySide = 1;
 #endif
 
 template <class Real>
-using MaterialLane = Wide<Real, (kTileSize / kLanes<Real> < kSideBySide ? kTileSize / kLanes<Real> : kSideBySide)>;
+using MaterialLane =
+    Wide<Real, (kTileSize / kLanes<Real> < kSideBySide ? kTileSize / kLanes<Real> : kSideBySide)>;
 
 template <class Value, class Real>
 HWY_INLINE void load_value(Value& value, const Real* p) {
@@ -40,20 +41,18 @@ HWY_INLINE void store_value(const Value& value, Real* p) {
 }
 
 template <class Model, class Real, int D>
-__attribute__((flatten)) void update_tile(const void* model_pointer, const ColumnPointers<Real>& tile, Real dt, Real* tau,
-                                          MaterialReport& report) {
+__attribute__((flatten)) void update_tile(const void* model_pointer, const ColumnPointers<Real>& tile,
+                                          Real dt, Real* tau, MaterialReport& report) {
   using L = MaterialLane<Real>;
   const Model& model = *static_cast<const Model*>(model_pointer);
   L dissipated(0), modulus(0);
   for (int at = 0; at < kTileSize; at += L::kLanes) {
     typename Model::template Point<L, D> point;
-    point.visit([&](auto column, auto& value) HWY_ATTR {
-      load_value(value, tile[static_cast<std::size_t>(column())] + at);
-    });
+    point.visit([&](auto column, auto& value)
+                    HWY_ATTR { load_value(value, tile[static_cast<std::size_t>(column())] + at); });
     const Response<L, D> response = model.update(point, L(static_cast<double>(dt)));
-    point.visit([&](auto column, const auto& value) HWY_ATTR {
-      store_value(value, tile[static_cast<std::size_t>(column())] + at);
-    });
+    point.visit([&](auto column, const auto& value)
+                    HWY_ATTR { store_value(value, tile[static_cast<std::size_t>(column())] + at); });
     L sum = response.wave_modulus;
     for (int r = 0, k = 0; r < D; ++r)
       for (int c = r; c < D; ++c, ++k) {

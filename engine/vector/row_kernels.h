@@ -1,5 +1,6 @@
-// Gather and scatter of single particles, row by row. Offsets count nodes from the particle's middle node; the
-// shift to the particle's own place is left to the lanes (transfer_kernels.h), sixteen particles at a time.
+// Gather and scatter of single particles, row by row. Offsets count nodes from the particle's middle node;
+// the shift to the particle's own place is left to the lanes (transfer_kernels.h), sixteen particles at a
+// time.
 //
 // Gathered per particle, a Quad each: v = sum w v_i, then along each axis the moment sum w v_i (offset), the
 // gradient sum dw v_i, or both. Scattered: b + A offset with weights w, and T with the gradients dw.
@@ -74,8 +75,8 @@ HWY_INLINE void gather_rows(const TileStencil<Real, D, gradient>& stencil, const
 }
 
 template <class Real, int D, bool moments, bool gradient>
-HWY_INLINE void scatter_rows(const TileStencil<Real, D, gradient>& stencil, const Quads<Real>* in, int particle,
-                             Real* nodes) {
+HWY_INLINE void scatter_rows(const TileStencil<Real, D, gradient>& stencil, const Quads<Real>* in,
+                             int particle, Real* nodes) {
   using R = Row<Real>;
   using In = Records<D, moments, gradient>;
   constexpr int kLine = kScratchEdge * kQuad;

@@ -1,5 +1,5 @@
-// A row of the scratch: three neighbouring nodes along the last axis, four numbers each (velocity or momentum,
-// and mass). The transfers work on rows: a particle touches nine of them in 3D and three in 2D.
+// A row of the scratch: three neighbouring nodes along the last axis, four numbers each (velocity or
+// momentum, and mass). The transfers work on rows: a particle touches nine of them in 3D and three in 2D.
 //
 // In one register of 16 floats the fourth node's place is along for the ride: its weight is zero.
 #pragma once
@@ -55,7 +55,9 @@ template <class R>
 struct QuadRow {
   Quad<R> q[3];
 
-  static HWY_INLINE QuadRow load(const R* p) { return {Quad<R>::load(p), Quad<R>::load(p + 4), Quad<R>::load(p + 8)}; }
+  static HWY_INLINE QuadRow load(const R* p) {
+    return {Quad<R>::load(p), Quad<R>::load(p + 4), Quad<R>::load(p + 8)};
+  }
   HWY_INLINE void store(R* p) const {
     for (int i = 0; i < 3; ++i) q[i].store(p + i * kQuad);
   }
@@ -69,13 +71,21 @@ struct QuadRow {
     return {one, one, one};
   }
   /// p[k] on all four numbers of node k.
-  static HWY_INLINE QuadRow by_node(const R* p) { return {Quad<R>::all(p[0]), Quad<R>::all(p[1]), Quad<R>::all(p[2])}; }
+  static HWY_INLINE QuadRow by_node(const R* p) {
+    return {Quad<R>::all(p[0]), Quad<R>::all(p[1]), Quad<R>::all(p[2])};
+  }
   HWY_INLINE Quad<R> sum() const { return q[0] + q[1] + q[2]; }
   HWY_INLINE Quad<R> last_less_first() const { return q[2] - q[0]; }
 
-  friend HWY_INLINE QuadRow operator+(QuadRow a, QuadRow b) { return {a.q[0] + b.q[0], a.q[1] + b.q[1], a.q[2] + b.q[2]}; }
-  friend HWY_INLINE QuadRow operator-(QuadRow a, QuadRow b) { return {a.q[0] - b.q[0], a.q[1] - b.q[1], a.q[2] - b.q[2]}; }
-  friend HWY_INLINE QuadRow operator*(QuadRow a, QuadRow b) { return {a.q[0] * b.q[0], a.q[1] * b.q[1], a.q[2] * b.q[2]}; }
+  friend HWY_INLINE QuadRow operator+(QuadRow a, QuadRow b) {
+    return {a.q[0] + b.q[0], a.q[1] + b.q[1], a.q[2] + b.q[2]};
+  }
+  friend HWY_INLINE QuadRow operator-(QuadRow a, QuadRow b) {
+    return {a.q[0] - b.q[0], a.q[1] - b.q[1], a.q[2] - b.q[2]};
+  }
+  friend HWY_INLINE QuadRow operator*(QuadRow a, QuadRow b) {
+    return {a.q[0] * b.q[0], a.q[1] * b.q[1], a.q[2] * b.q[2]};
+  }
   friend HWY_INLINE QuadRow fma(QuadRow a, QuadRow b, QuadRow c) {
     return {fma(a.q[0], b.q[0], c.q[0]), fma(a.q[1], b.q[1], c.q[1]), fma(a.q[2], b.q[2], c.q[2])};
   }
@@ -93,12 +103,15 @@ struct FullRow {
   static HWY_INLINE FullRow repeated(const float* p) { return {hn::LoadDup128(Tag(), p)}; }
   static HWY_INLINE FullRow by_node(const float* p) {
     // Within node k, take number k of the quad.
-    return {hn::Vec<Tag>{_mm512_permutevar_ps(_mm512_broadcast_f32x4(_mm_load_ps(p)),
-                                              _mm512_set_epi32(3, 3, 3, 3, 2, 2, 2, 2, 1, 1, 1, 1, 0, 0, 0, 0))}};
+    return {
+        hn::Vec<Tag>{_mm512_permutevar_ps(_mm512_broadcast_f32x4(_mm_load_ps(p)),
+                                          _mm512_set_epi32(3, 3, 3, 3, 2, 2, 2, 2, 1, 1, 1, 1, 0, 0, 0, 0))}};
   }
   HWY_INLINE Quad<float> node(int k) const {
     const __m512 x = v.raw;
-    const __m128 out = k == 0 ? _mm512_castps512_ps128(x) : k == 1 ? _mm512_extractf32x4_ps(x, 1) : _mm512_extractf32x4_ps(x, 2);
+    const __m128 out = k == 0   ? _mm512_castps512_ps128(x)
+                       : k == 1 ? _mm512_extractf32x4_ps(x, 1)
+                                : _mm512_extractf32x4_ps(x, 2);
     return {{hn::Vec<Quad<float>::Tag>{out}}};
   }
   HWY_INLINE Quad<float> sum() const { return (node(0) + node(1)) + node(2); }

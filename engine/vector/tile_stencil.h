@@ -20,8 +20,8 @@ template <class Real>
 using Quads = Real[kTileSize * kQuad];
 
 template <class Real>
-HWY_INLINE void store_quads(const Lane<Real>& a, const Lane<Real>& b, const Lane<Real>& c, const Lane<Real>& d,
-                            Real* out) {
+HWY_INLINE void store_quads(const Lane<Real>& a, const Lane<Real>& b, const Lane<Real>& c,
+                            const Lane<Real>& d, Real* out) {
   hn::StoreInterleaved4(a.v[0], b.v[0], c.v[0], d.v[0], typename Lane<Real>::Tag(), out);
 }
 template <class Real>
@@ -31,10 +31,10 @@ HWY_INLINE void load_quads(const Real* in, Lane<Real> (&out)[4]) {
 
 template <class Real, int D, bool kGradient>
 struct TileStencil {
-  alignas(64) Quads<Real> w[D];                    // of the three nodes along each axis
-  alignas(64) Quads<Real> dw[kGradient ? D : 1];   // their derivatives by x/h
-  alignas(64) std::int32_t first[kTileSize];       // of the scratch's numbers: the particle's first node
-  alignas(64) Real f[D][kTileSize];                // x/h less the middle node, in [-1/2, 1/2)
+  alignas(64) Quads<Real> w[D];                   // of the three nodes along each axis
+  alignas(64) Quads<Real> dw[kGradient ? D : 1];  // their derivatives by x/h
+  alignas(64) std::int32_t first[kTileSize];      // of the scratch's numbers: the particle's first node
+  alignas(64) Real f[D][kTileSize];               // x/h less the middle node, in [-1/2, 1/2)
 
   /// `position`: the tile's column. Particles that are not where their block's scratch reaches (not finite,
   /// say) get a place in it all the same; the pass counts them as invalid.

@@ -46,8 +46,8 @@ struct LaneMotion {
 
 /// v, C, x and the trial F_E of the first `n` particles of a tile.
 template <class Real, int D, class Transfer>
-HWY_INLINE void gather_tile(const BlockTask<Real, D>& task, const TileView<Real, D>& tile, int n, const Real* nodes,
-                            TileWork<Real, D, Transfer>& work, LaneMotion<Real>& motion) {
+HWY_INLINE void gather_tile(const BlockTask<Real, D>& task, const TileView<Real, D>& tile, int n,
+                            const Real* nodes, TileWork<Real, D, Transfer>& work, LaneMotion<Real>& motion) {
   using L = Lane<Real>;
   using Work = TileWork<Real, D, Transfer>;
   using Out = typename Work::Gathered;
@@ -113,7 +113,7 @@ HWY_INLINE void scatter_tile(const BlockTask<Real, D>& task, const TileView<Real
   using In = typename Work::Gathered;
   work.stencil.place(tile.at(Column::position), Real(1) / task.h, task.block);
   const L h(task.h), impulse(-task.next / task.h), zero(0);
-  const auto store = [&](int k, int at, const L (&a)[D]) HWY_ATTR {
+  const auto store = [&](int k, int at, const L(&a)[D]) HWY_ATTR {
     store_quads<Real>(a[0], a[1], D == 3 ? a[D - 1] : zero, zero, work.record[k] + at * kQuad);
   };
   for (int at = 0; at < kTileSize; at += kLanes<Real>) {
@@ -145,7 +145,8 @@ HWY_INLINE void scatter_tile(const BlockTask<Real, D>& task, const TileView<Real
 template <class Real, int D>
 class PartialTile {
  public:
-  PartialTile(const ColumnPointers<Real>& tile, int first, int last) : tile_(tile), first_(first), count_(last - first) {
+  PartialTile(const ColumnPointers<Real>& tile, int first, int last)
+      : tile_(tile), first_(first), count_(last - first) {
     Real* next = values_;
     for (int c = 0; c < kColumnCount; ++c) {
       const auto column = static_cast<Column>(c);
@@ -203,8 +204,9 @@ struct StageClock {
 };
 
 template <class Real, int D, class Transfer, Stages stages, bool timed>
-HWY_INLINE void run_tile(const BlockTask<Real, D>& task, const BatchTask<Real>& batch, const ColumnPointers<Real>& columns,
-                         int n, const Real* in, Real* out, TileWork<Real, D, Transfer>& work, LaneMotion<Real>& motion) {
+HWY_INLINE void run_tile(const BlockTask<Real, D>& task, const BatchTask<Real>& batch,
+                         const ColumnPointers<Real>& columns, int n, const Real* in, Real* out,
+                         TileWork<Real, D, Transfer>& work, LaneMotion<Real>& motion) {
   using L = Lane<Real>;
   constexpr bool gathers = stages == Stages::fused || stages == Stages::finish;
   constexpr bool scatters = stages != Stages::finish;
@@ -229,7 +231,8 @@ HWY_INLINE void run_tile(const BlockTask<Real, D>& task, const BatchTask<Real>& 
       if constexpr (Transfer::affine)
         for (int c = 0; c < D * D; ++c) L::load(work.C[c] + at).store(tile.at(Column::affine, c) + at);
       if (columns[static_cast<std::size_t>(Column::stress)] != nullptr)
-        for (int c = 0; c < D * (D + 1) / 2; ++c) L::load(work.tau[c] + at).store(tile.at(Column::stress, c) + at);
+        for (int c = 0; c < D * (D + 1) / 2; ++c)
+          L::load(work.tau[c] + at).store(tile.at(Column::stress, c) + at);
     }
   if constexpr (scatters) {
     scatter_tile<Real, D, Transfer, stages != Stages::adjust>(task, tile, n, work, out);
@@ -275,14 +278,17 @@ HWY_INLINE void run_tiles(BlockTask<Real, D>& task, const Real* in, Real* out) {
       for (int c = 0; c < kColumnCount; ++c) {
         Real* const column = batch.columns[static_cast<std::size_t>(c)];
         columns[static_cast<std::size_t>(c)] =
-            column == nullptr ? nullptr
-                              : column + tile_first * static_cast<std::size_t>(components(static_cast<Column>(c), D));
+            column == nullptr
+                ? nullptr
+                : column + tile_first * static_cast<std::size_t>(components(static_cast<Column>(c), D));
       }
       if (last - first == kTile) {
         run_tile<Real, D, Transfer, stages, timed>(task, batch, columns, kTileSize, in, out, work, motion);
       } else {
-        PartialTile<Real, D> part(columns, static_cast<int>(first - tile_first), static_cast<int>(last - tile_first));
-        run_tile<Real, D, Transfer, stages, timed>(task, batch, part.columns(), part.count(), in, out, work, motion);
+        PartialTile<Real, D> part(columns, static_cast<int>(first - tile_first),
+                                  static_cast<int>(last - tile_first));
+        run_tile<Real, D, Transfer, stages, timed>(task, batch, part.columns(), part.count(), in, out, work,
+                                                   motion);
         part.write_back();
       }
       first = last;

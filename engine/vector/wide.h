@@ -59,9 +59,9 @@ HWY_INLINE WideMask<R, N> compare(F f, const Wide<R, N>& a, const Wide<R, N>& b)
   return out;
 }
 
-#define FIRN_WIDE_BINARY(op, function)                                     \
-  template <class R, int N>                                                \
-  HWY_INLINE Wide<R, N> op(const Wide<R, N>& a, const Wide<R, N>& b) {      \
+#define FIRN_WIDE_BINARY(op, function)                                         \
+  template <class R, int N>                                                    \
+  HWY_INLINE Wide<R, N> op(const Wide<R, N>& a, const Wide<R, N>& b) {         \
     return each([](auto x, auto y) HWY_ATTR { return function(x, y); }, a, b); \
   }
 FIRN_WIDE_BINARY(operator+, hn::Add)
@@ -73,10 +73,10 @@ FIRN_WIDE_BINARY(max, hn::Max)
 FIRN_WIDE_BINARY(copysign, hn::CopySign)
 #undef FIRN_WIDE_BINARY
 
-#define FIRN_WIDE_UNARY(op, expression)                                 \
-  template <class R, int N>                                             \
-  HWY_INLINE Wide<R, N> op(const Wide<R, N>& a) {                        \
-    return each([](auto x) HWY_ATTR { return expression; }, a);         \
+#define FIRN_WIDE_UNARY(op, expression)                         \
+  template <class R, int N>                                     \
+  HWY_INLINE Wide<R, N> op(const Wide<R, N>& a) {               \
+    return each([](auto x) HWY_ATTR { return expression; }, a); \
   }
 FIRN_WIDE_UNARY(operator-, hn::Neg(x))
 FIRN_WIDE_UNARY(sqrt, hn::Sqrt(x))
@@ -88,7 +88,7 @@ FIRN_WIDE_UNARY(log, hn::Log(hn::ScalableTag<R>(), x))
 
 #define FIRN_WIDE_COMPARE(op, function)                                           \
   template <class R, int N>                                                       \
-  HWY_INLINE WideMask<R, N> op(const Wide<R, N>& a, const Wide<R, N>& b) {         \
+  HWY_INLINE WideMask<R, N> op(const Wide<R, N>& a, const Wide<R, N>& b) {        \
     return compare([](auto x, auto y) HWY_ATTR { return function(x, y); }, a, b); \
   }
 FIRN_WIDE_COMPARE(operator==, hn::Eq)
@@ -137,11 +137,9 @@ HWY_INLINE int count(const WideMask<R, N>& m) {
 
 template <class R, int N>
 HWY_INLINE Wide<R, N> flip_sign(const Wide<R, N>& x, const Wide<R, N>& sign) {
-  return each(
-      [](auto a, auto s) HWY_ATTR {
-        return hn::Xor(a, hn::And(s, hn::SignBit(hn::ScalableTag<R>())));
-      },
-      x, sign);
+  return each([](auto a, auto s)
+                  HWY_ATTR { return hn::Xor(a, hn::And(s, hn::SignBit(hn::ScalableTag<R>()))); },
+              x, sign);
 }
 
 // 1/sqrt(x) to 11 bits or better.

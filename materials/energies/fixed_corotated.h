@@ -32,8 +32,8 @@ struct FixedCorotatedEnergy {
     return tau;
   }
 
-  /// max_k s_k^2 d2psi/ds_k^2 = 2 mu max s^2 + lam J^2, which bounds the shear moduli 2 mu s_i^2 (1 - 1/(s_i +
-  /// s_j)) too; never below mu, so that a collapsed point keeps a finite time step.
+  /// max_k s_k^2 d2psi/ds_k^2 = 2 mu max s^2 + lam J^2, which bounds the shear moduli 2 mu s_i^2 (1 - 1/(s_i
+  /// + s_j)) too; never below mu, so that a collapsed point keeps a finite time step.
   template <class L, int D>
   static L wave_modulus(const Vector<L, D>& s, const Lame<L>& m) {
     const L J = product(s);

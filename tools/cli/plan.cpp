@@ -50,8 +50,8 @@ std::vector<Effect> effects(const Plan& plan) {
   std::vector<std::string> colliders;
   for (const Collider& c : grid.colliders)
     colliders.push_back(fmt::format("{} ({})", c.name, name(c.contact)));
-  const bool affine = plan.scene.simulation.transfer == Transfer::apic ||
-                      plan.scene.simulation.transfer == Transfer::mls;
+  const bool affine =
+      plan.scene.simulation.transfer == Transfer::apic || plan.scene.simulation.transfer == Transfer::mls;
   const bool increments = plan.scene.simulation.transfer == Transfer::flip;
   return {
       {"plasticity", plastic, plastic ? "return map each step, F_P stored" : "no return map, no F_P"},

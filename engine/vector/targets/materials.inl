@@ -9,7 +9,8 @@ namespace {
 
 template <class Real, int D, std::size_t... I>
 const MaterialKernel<Real>* kernels_of(std::index_sequence<I...>) {
-  static constexpr MaterialKernel<Real> kernels[] = {update_tile<std::variant_alternative_t<I, Material>, Real, D>...};
+  static constexpr MaterialKernel<Real> kernels[] = {
+      update_tile<std::variant_alternative_t<I, Material>, Real, D>...};
   return kernels;
 }
 

@@ -3,20 +3,20 @@
 
 #include "engine/vector/kernel_tables.h"
 
-#define FIRN_DECLARE_TABLES(isa)                                    \
-  namespace firn::isa {                                             \
-  template <class Real, int D>                                      \
-  KernelTable<Real, D> kernel_table();                              \
-  template <class Real, int D>                                      \
-  const MaterialKernel<Real>* material_kernels();                   \
-  template <>                                                       \
-  KernelTable<float, 2> kernel_table<float, 2>();                   \
-  template <>                                                       \
-  KernelTable<float, 3> kernel_table<float, 3>();                   \
-  template <>                                                       \
-  KernelTable<double, 2> kernel_table<double, 2>();                 \
-  template <>                                                       \
-  KernelTable<double, 3> kernel_table<double, 3>();                 \
+#define FIRN_DECLARE_TABLES(isa)                    \
+  namespace firn::isa {                             \
+  template <class Real, int D>                      \
+  KernelTable<Real, D> kernel_table();              \
+  template <class Real, int D>                      \
+  const MaterialKernel<Real>* material_kernels();   \
+  template <>                                       \
+  KernelTable<float, 2> kernel_table<float, 2>();   \
+  template <>                                       \
+  KernelTable<float, 3> kernel_table<float, 3>();   \
+  template <>                                       \
+  KernelTable<double, 2> kernel_table<double, 2>(); \
+  template <>                                       \
+  KernelTable<double, 3> kernel_table<double, 3>(); \
   }
 
 FIRN_DECLARE_TABLES(sse4)

@@ -92,7 +92,7 @@ Sums of_particles(Grid<Real, D, Transfer>& g) {
 
 #define FIRN_ALL_TRANSFERS                                                                            \
   (Grid<double, 3, ApicTransfer>), (Grid<double, 2, ApicTransfer>), (Grid<double, 1, ApicTransfer>),  \
-      (Grid<double, 3, MlsTransfer>), (Grid<double, 2, MlsTransfer>), (Grid<float, 3, MlsTransfer>), \
+      (Grid<double, 3, MlsTransfer>), (Grid<double, 2, MlsTransfer>), (Grid<float, 3, MlsTransfer>),  \
       (Grid<float, 3, ApicTransfer>), (Grid<double, 3, PicTransfer>), (Grid<double, 2, PicTransfer>), \
       (Grid<double, 3, FlipTransfer>), (Grid<double, 2, FlipTransfer>), (Grid<float, 2, FlipTransfer>)
 
@@ -131,7 +131,8 @@ TEMPLATE_TEST_CASE("APIC conserves angular momentum over a step", "", (Grid<doub
 }
 
 TEMPLATE_TEST_CASE("APIC reproduces an affine velocity field exactly", "", (Grid<double, 3, ApicTransfer>),
-                   (Grid<double, 2, ApicTransfer>), (Grid<double, 3, MlsTransfer>), (Grid<double, 1, ApicTransfer>)) {
+                   (Grid<double, 2, ApicTransfer>), (Grid<double, 3, MlsTransfer>),
+                   (Grid<double, 1, ApicTransfer>)) {
   TestType grid(2000);
   auto& t = grid.particles();
   auto C = t.template view<Column::affine>().load(0);  // any matrix and any vector

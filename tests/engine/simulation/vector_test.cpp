@@ -1,10 +1,9 @@
 // The vectorised path against the plain one: the same scene, the same steps, the same particles.
-#include <catch2/catch.hpp>
-
 #include <cstdlib>
 
-#include "engine/base/error.h"
+#include <catch2/catch.hpp>
 
+#include "engine/base/error.h"
 #include "tests/support/simulated.h"
 
 using namespace firn;
@@ -55,10 +54,11 @@ max = [0.6, 1, 0]
 attributes = ["F_E", "stress", "Jp"]
 )";
   if (dimension == 3)
-    for (const auto& [from, to] : {std::pair("center = [-0.12, 0.2, 0]", "center = [-0.12, 0.2, 0.02]"),
-                                   std::pair("[3, -5, 0]", "[3, -5, 0.3]"), std::pair("[0, 0, 300]", "[40, 20, 300]"),
-                                   std::pair("0.05, 0]", "0.05, -0.15]"), std::pair("0.3, 0] }", "0.3, 0.17] }"),
-                                   std::pair("-1, 0]", "-1, -0.4]"), std::pair("1, 0]\n[output", "1, 0.4]\n[output")})
+    for (const auto& [from, to] :
+         {std::pair("center = [-0.12, 0.2, 0]", "center = [-0.12, 0.2, 0.02]"),
+          std::pair("[3, -5, 0]", "[3, -5, 0.3]"), std::pair("[0, 0, 300]", "[40, 20, 300]"),
+          std::pair("0.05, 0]", "0.05, -0.15]"), std::pair("0.3, 0] }", "0.3, 0.17] }"),
+          std::pair("-1, 0]", "-1, -0.4]"), std::pair("1, 0]\n[output", "1, 0.4]\n[output")})
       text.replace(text.find(from), std::string(from).size(), to);
   return text;
 }
@@ -69,7 +69,8 @@ struct Difference {
 
 double most(const std::vector<float>& a, const std::vector<float>& b) {
   double out = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) out = std::max(out, std::abs(static_cast<double>(a[k]) - static_cast<double>(b[k])));
+  for (std::size_t k = 0; k < a.size(); ++k)
+    out = std::max(out, std::abs(static_cast<double>(a[k]) - static_cast<double>(b[k])));
   return out;
 }
 
@@ -90,7 +91,8 @@ TEST_CASE("the vectorised path takes the steps of the plain one") {
   setenv("FIRN_ISA", isa.c_str(), 1);
   std::unique_ptr<Simulated> fast;
   try {
-    fast = std::make_unique<Simulated>(scene(dimension), settings(precision, transfer, dimension, "automatic"));
+    fast =
+        std::make_unique<Simulated>(scene(dimension), settings(precision, transfer, dimension, "automatic"));
   } catch (const Error& error) {
     if (error.code() != ExitCode::environment) throw;
     WARN("no " << isa << " here");  // the other sets are compared
@@ -117,6 +119,7 @@ TEST_CASE("the vectorised path takes the steps of the plain one") {
   CHECK(b.kinetic == Approx(a.kinetic).epsilon(scale));
   CHECK(b.elastic == Approx(a.elastic).epsilon(100 * scale));
   CHECK(b.dissipated == Approx(a.dissipated).epsilon(100 * scale));
-  for (int d = 0; d < 3; ++d) CHECK(b.momentum[d] == Approx(a.momentum[d]).epsilon(scale).margin(scale * a.mass));
+  for (int d = 0; d < 3; ++d)
+    CHECK(b.momentum[d] == Approx(a.momentum[d]).epsilon(scale).margin(scale * a.mass));
   CHECK(most(fast->attribute("P"), plain.attribute("P")) < scale + 1e-6);
 }
