@@ -45,4 +45,14 @@ std::vector<std::string> check_seeds(const Plan& plan, std::span<const Seeds> se
   return warnings;
 }
 
+std::vector<Seeds> seed_bodies(const Plan& plan, std::vector<std::string>& warnings) {
+  std::vector<Seeds> seeds;
+  const SimulationDescription& s = plan.scene.simulation;
+  for (std::size_t b = 0; b < plan.bodies.size(); ++b)
+    seeds.push_back(seed_body(plan.scene.bodies[b], plan.bodies[b].shape.get(), s.dimension, s.cell_size,
+                              s.seed, b, plan.scene.file.parent_path(), warnings));
+  for (std::string& warning : check_seeds(plan, seeds)) warnings.push_back(std::move(warning));
+  return seeds;
+}
+
 }  // namespace firn

@@ -10,6 +10,7 @@
 #include "engine/base/error.h"
 #include "engine/base/nearest_name.h"
 #include "engine/output/posix_file.h"
+#include "tools/cli/bench.h"
 #include "tools/cli/element.h"
 #include "tools/cli/materials.h"
 #include "tools/cli/memory.h"
@@ -72,6 +73,28 @@ void add_plan(CLI::App& app, Action& action) {
       [=, &action] { action = [=] { return firn::run_plan(*scene, *overrides, *json, std::cout); }; });
 }
 
+void add_bench(CLI::App& app, Action& action) {
+  auto options = std::make_shared<firn::BenchOptions>();
+  CLI::App* c = add(app, "bench", "Measure particle updates per second, pass by pass",
+                    "firn bench scenes/snowball.toml --threads 1,2");
+  c->add_option("scene", options->scenes,
+                "Scene files, or the built-in cases elastic and snow; both of these if left out");
+  add_overrides(c, options->overrides);
+  c->add_option("--threads", options->threads,
+                "Each of these numbers of threads; 1 and all cores if left out")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 1024));
+  c->add_option("--isa", options->isas, "Each of these instruction sets; the widest if left out")
+      ->delimiter(',')
+      ->type_name("SET");
+  c->add_option("--rounds", options->rounds, "Measure everything so many times, in turns; the best counts")
+      ->check(CLI::Range(1, 1000));
+  c->add_option("--steps", options->steps, "End each round after so many steps")
+      ->check(CLI::Range(1, 1000000));
+  c->add_flag("--json", options->json, "A line of JSON per measurement instead of CSV");
+  c->callback([=, &action] { action = [=] { return firn::run_bench(*options, std::cout); }; });
+}
+
 void add_element(CLI::App& app, Action& action) {
   CLI::App* c = add(app, "element", "Drive single material points: JSON lines in, JSON lines out",
                     "echo "
@@ -117,6 +140,7 @@ int run(CLI::App& app, int argc, char** argv) {
   Action action;
   add_run(app, action);
   add_plan(app, action);
+  add_bench(app, action);
   add_element(app, action);
   add_materials(app, action);
   add_schema(app, action);

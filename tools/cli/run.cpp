@@ -75,16 +75,6 @@ void check_memory(const Estimate& e, std::uint64_t limit) {
                   std::cbrt(e.peak_bytes / available)));
 }
 
-std::unique_ptr<Simulation> seeded_simulation(const Plan& plan, std::vector<std::string>& warnings) {
-  std::vector<Seeds> seeds;
-  const SimulationDescription& s = plan.scene.simulation;
-  for (std::size_t b = 0; b < plan.bodies.size(); ++b)
-    seeds.push_back(seed_body(plan.scene.bodies[b], plan.bodies[b].shape.get(), s.dimension, s.cell_size,
-                              s.seed, b, plan.scene.file.parent_path(), warnings));
-  for (std::string& warning : check_seeds(plan, seeds)) warnings.push_back(std::move(warning));
-  return make_simulation(plan, seeds);
-}
-
 int terminal_columns() {
   winsize size{};
   return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 20 ? size.ws_col : 80;
@@ -165,7 +155,7 @@ int run_scene(const RunOptions& options) {
   if (!folder.warning().empty()) warnings.push_back(folder.warning());
 
   const Clock::time_point seeding = Clock::now();
-  const std::unique_ptr<Simulation> simulation = seeded_simulation(plan, warnings);
+  const std::unique_ptr<Simulation> simulation = make_simulation(plan, seed_bodies(plan, warnings));
   times.seeding = seconds_since(seeding);
   for (const std::string& warning : warnings) std::cerr << "warning: " << warning << '\n';
 
