@@ -37,23 +37,26 @@ struct ElastoPlastic {
     const Svd<L, D> f = svd_any_order(p.F_E);
     const Vector<L, D> s = yield.project(f.s);
     L J_P = determinant(p.F_P);
-    const L psi_trial = Energy::density(f.s, hardening.evaluate(J_P).factor * rest);
-
-    Vector<L, D> plastic;
-    for (int k = 0; k < D; ++k) {
-      plastic[k] = (f.s[k] - s[k]) / s[k];
-      J_P = J_P * (L(1) + plastic[k]);
-    }
-    p.F_E = p.F_E + compose(f.U, s - f.s, f.V);
-    p.F_P = p.F_P + compose(f.V, plastic, f.V) * p.F_P;
-
-    const auto hardened = hardening.evaluate(J_P);
-    const Lame<L> m = hardened.factor * rest;
+    auto hardened = hardening.evaluate(J_P);
     Response<L, D> out;
+    out.dissipated = L(0);
+    // Most steps of most points are elastic; what follows would change no bit of them.
+    if (any(differs(s, f.s))) {
+      const L psi_trial = Energy::density(f.s, hardened.factor * rest);
+      Vector<L, D> plastic;
+      for (int k = 0; k < D; ++k) {
+        plastic[k] = (f.s[k] - s[k]) / s[k];
+        J_P = J_P * (L(1) + plastic[k]);
+      }
+      p.F_E = p.F_E + compose(f.U, s - f.s, f.V);
+      p.F_P = p.F_P + compose(f.V, plastic, f.V) * p.F_P;
+      hardened = hardening.evaluate(J_P);
+      out.dissipated = psi_trial - Energy::density(s, hardened.factor * rest);
+    }
+    const Lame<L> m = hardened.factor * rest;
     out.tau = compose(f.U, Energy::kirchhoff(s, m), f.U);
     // Moduli that faded to nothing still leave a time step: c stays above a thousandth of that at rest.
     out.wave_modulus = max(Energy::wave_modulus(s, m), L(1e-6) * rest.p_wave());
-    out.dissipated = psi_trial - Energy::density(s, m);
     out.capped = max(hardened.capped, Energy::capped(s));
     return out;
   }

@@ -55,6 +55,13 @@ L least(const Vector<L, D>& s) {
   for (int k = 1; k < D; ++k) out = min(s[k], out);
   return out;
 }
+/// Where a and b are not the same; NaN differs from everything.
+template <class L, int D>
+LaneMask<L> differs(const Vector<L, D>& a, const Vector<L, D>& b) {
+  LaneMask<L> out = !(a[0] == b[0]);
+  for (int k = 1; k < D; ++k) out = out | !(a[k] == b[k]);
+  return out;
+}
 /// dJ/ds_i and, for i != j, d2J/(ds_i ds_j): the product of the other singular values.
 template <class L, int D>
 L product_without(const Vector<L, D>& s, int i, int j = -1) {

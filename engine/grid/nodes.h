@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include <tbb/cache_aligned_allocator.h>
+
 #include "engine/grid/block_layout.h"
 #include "engine/math/matrix.h"
 
@@ -34,7 +36,7 @@ class BlockArray {
   std::size_t bytes() const { return values_.capacity() * sizeof(T); }
 
  private:
-  std::vector<T> values_;
+  std::vector<T, tbb::cache_aligned_allocator<T>> values_;
 };
 
 /// 8 nodes an axis around a block: one below it, three above.

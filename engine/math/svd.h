@@ -247,9 +247,10 @@ Svd<L, D> svd_any_order(const Matrix<L, D>& F) {
       const Vector<L, 3> unit = (L(1.5) - L(0.5) * dot(v, v)) * v;
       const Vector<L, 3> b = F * unit;
       length2[k] = dot(b, b);
-      out.s[k] = sqrt(length2[k]);
+      const L inverse = inverse_sqrt(length2[k]);
+      out.s[k] = length2[k] * inverse;
       out.V.set_column(k, unit);
-      out.U.set_column(k, (L(1) / out.s[k]) * b);
+      out.U.set_column(k, inverse * b);
     }
     const L longest = max(max(length2[0], length2[1]), length2[2]);
     // s_mid s_min > s_max^2 / 8: below it the squares in F^T F cost digits.

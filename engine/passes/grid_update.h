@@ -8,9 +8,14 @@
 
 namespace firn {
 
-/// One block, `block.before` with it when the scheme keeps one. False when no node of it is in use.
 template <class Real, int D>
-bool update_block(BlockNodes<Real, D>& block, double dt, std::span<const StepEffect> effects) {
+void apply_effects(BlockNodes<Real, D>& block, double dt, std::span<const StepEffect> effects) {
+  for (const StepEffect& effect : effects) std::visit([&](const auto& e) { e.apply(block, dt); }, effect);
+}
+
+/// One block, `block.before` with it when the scheme keeps one.
+template <class Real, int D>
+void update_block(BlockNodes<Real, D>& block, double dt, std::span<const StepEffect> effects) {
   bool used = false;
   for (std::size_t n = 0; n < block.nodes.size(); ++n) {
     Node<Real, D>& node = block.nodes[n];
@@ -21,9 +26,7 @@ bool update_block(BlockNodes<Real, D>& block, double dt, std::span<const StepEff
     if (!block.before.empty())
       for (int d = 0; d < D; ++d) block.before[n][d] /= node.m;
   }
-  if (used)
-    for (const StepEffect& effect : effects) std::visit([&](const auto& e) { e.apply(block, dt); }, effect);
-  return used;
+  if (used) apply_effects(block, dt, effects);
 }
 
 template <class Transfer, class Real, int D>

@@ -8,15 +8,11 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-
-#include "engine/grid/nodes.h"
 
 namespace firn {
 
 struct SpeedBound {
-  double heavy = 0, light = 0;  // m/s
+  double heavy = 0, light = 0;  // m/s; not finite when a velocity is not
 
   void join(const SpeedBound& other) {
     heavy = std::max(heavy, other.heavy);
@@ -24,25 +20,5 @@ struct SpeedBound {
   }
   double value() const { return heavy + light; }
 };
-
-/// `lightest`: the least mass of a particle, kg.
-template <class Real, int D>
-SpeedBound speed_bound(std::span<const Node<Real, D>> nodes, Real lightest) {
-  const Real share = Real(kNeighbours<D>) / lightest;
-  Real heavy = 0, light = 0, finite = 0;
-  for (const auto& node : nodes) {
-    if (!(node.m > Real(0))) continue;
-    Real speed = 0;
-    for (int d = 0; d < D; ++d) {
-      speed = std::max(speed, std::abs(node.v[d]));
-      finite += Real(0) * node.v[d];  // a maximum would lose a NaN
-    }
-    const Real part = share * node.m;
-    (part < Real(1) ? light : heavy) =
-        std::max(part < Real(1) ? light : heavy, std::min(part, Real(1)) * speed);
-  }
-  if (finite != Real(0)) heavy = std::numeric_limits<Real>::infinity();
-  return {static_cast<double>(heavy), static_cast<double>(light)};
-}
 
 }  // namespace firn

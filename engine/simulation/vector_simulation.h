@@ -7,7 +7,6 @@
 #include "engine/passes/grid_update.h"
 #include "engine/passes/outboxes.h"
 #include "engine/passes/sort.h"
-#include "engine/passes/speed_bound.h"
 #include "engine/simulation/particle_simulation.h"
 #include "engine/vector/kernel_tables.h"
 
@@ -23,6 +22,7 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
   VectorSimulation(const Plan& plan, std::span<const Seeds> seeds, const KernelTable<Real, D>& table)
       : Base(plan, seeds),
         kernels_(transfer(table, plan.scene.simulation.transfer)),
+        grid_kernels_(table.grid),
         updates_(table.materials),
         reports_(batches_.size()) {
     for (const auto& batch : batches_)
@@ -139,11 +139,15 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
     return tbb::parallel_reduce(
                tbb::blocked_range<std::size_t>(0, layout_.size(), 4), SpeedBound{},
                [&](const tbb::blocked_range<std::size_t>& range, SpeedBound bound) {
+                 OutboxPointers<Real, D> from, next = sources(range.begin());
                  for (std::size_t b = range.begin(); b < range.end(); ++b) {
+                   from = next;
+                   next = sources(std::min(b + 1, layout_.size() - 1));
+                   Real* const nodes = &grid_.block(b)[0].v[0];
+                   if (!grid_kernels_.collect(from, next, nodes)) continue;
                    BlockNodes<Real, D> block{grid_.block(b), {}, layout_.coord(b), h};
-                   collect<Real, D>(outboxes_, layout_.sources(b), block.nodes);
-                   if (update_block(block, dt, effects_))
-                     bound.join(speed_bound<Real, D>(block.nodes, lightest_));
+                   apply_effects(block, dt, effects_);
+                   bound.join(grid_kernels_.speed_bound(nodes, lightest_));
                  }
                  return bound;
                },
@@ -154,10 +158,25 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
         .value();
   }
 
+  OutboxPointers<Real, D> sources(std::size_t b) {
+    OutboxPointers<Real, D> out;
+    std::transform(layout_.sources(b).begin(), layout_.sources(b).end(), out.begin(), [&](std::uint32_t s) {
+      return &(s == BlockLayout<D>::kNone ? outboxes_.none() : outboxes_.block(s))->v[0];
+    });
+    return out;
+  }
+
   void run_blocks(Kernel kernel, double dt, double next) {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, layout_.occupied(), 1), [&](const auto& range) {
       for (std::size_t b = range.begin(); b < range.end(); ++b) run_block(kernel, b, dt, next);
     });
+  }
+
+  std::array<const Real*, kNeighbours<D>> velocities(std::size_t b) {
+    std::array<const Real*, kNeighbours<D>> out;
+    std::transform(layout_.neighbours(b).begin(), layout_.neighbours(b).end(), out.begin(),
+                   [&](std::uint32_t n) { return &grid_.block(n)[0].v[0]; });
+    return out;
   }
 
   void run_block(Kernel kernel, std::size_t b, double dt, double next) {
@@ -166,9 +185,10 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
     BlockTask<Real, D> task{};
     task.batches = {tasks_.data() + first, batches_.size()};
     task.block = layout_.coord(b);
-    if (dt > 0)
-      for (std::size_t n = 0; n < task.velocities.size(); ++n)
-        task.velocities[n] = &grid_.block(layout_.neighbours(b)[n])[0].v[0];
+    if (dt > 0) {
+      task.velocities = velocities(b);
+      task.next_velocities = velocities(std::min(b + 1, layout_.occupied() - 1));
+    }
     task.outbox = &outboxes_.block(b)->v[0];
     task.h = static_cast<Real>(plan_->cell_size());
     task.dt = static_cast<Real>(dt);
@@ -185,6 +205,7 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
   }
 
   TransferKernels<Real, D> kernels_;
+  GridKernels<Real, D> grid_kernels_;
   const MaterialKernel<Real>* updates_;  // by the index of the model in Material
   std::vector<BatchTask<Real>> tasks_;   // block by block, then by batch
   Sorter<QuadraticKernel, Real, D> sorter_;

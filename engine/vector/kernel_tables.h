@@ -8,6 +8,7 @@ namespace firn {
 template <class Real, int D>
 struct KernelTable {
   TransferKernels<Real, D> pic, apic, mls;
+  GridKernels<Real, D> grid;
   const MaterialKernel<Real>* materials;  // by the index of the model in Material
 };
 

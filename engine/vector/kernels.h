@@ -15,6 +15,7 @@
 #include "engine/particles/columns.h"
 #include "engine/particles/tile.h"
 #include "engine/passes/reports.h"
+#include "engine/passes/speed_bound.h"
 
 namespace firn {
 
@@ -51,11 +52,12 @@ template <class Real, int D>
 struct BlockTask {
   std::span<const BatchTask<Real>> batches;
   BlockCoord<D> block;
-  std::array<const Real*, kNeighbours<D>> velocities;  // of each grid block: 4^D nodes of kNodeReals
-  Real* outbox;                                        // 8^D nodes of kNodeReals
-  Real h;                                              // m
-  Real dt;                                             // s, of the step that ends
-  Real next;                                           // s, of the step that begins: its forces are scattered
+  std::array<const Real*, kNeighbours<D>> velocities;       // of each grid block: 4^D nodes of kNodeReals
+  std::array<const Real*, kNeighbours<D>> next_velocities;  // of the block that is likely to come next
+  Real* outbox;                                             // 8^D nodes of kNodeReals
+  Real h;                                                   // m
+  Real dt;                                                  // s, of the step that ends
+  Real next;  // s, of the step that begins: its forces are scattered
   Motion motion;
   StageTimes* times;  // null: not taken
 };
@@ -68,6 +70,18 @@ struct TransferKernels {
   Kernel fused;   // G2P of `dt`, return map, P2G for `next`; velocities of particles are not kept
   Kernel finish;  // G2P of `dt`, return map; everything is kept
   Kernel adjust;  // adds the forces of a further `next` (negative: takes back) to the outbox
+};
+
+/// The outboxes of the 3^D blocks around a block of the grid; all zeros for a block without particles.
+template <class Real, int D>
+using OutboxPointers = std::array<const Real*, kNeighbours<D>>;
+
+template <class Real, int D>
+struct GridKernels {
+  /// The velocities and masses of one block, 4^D nodes of kNodeReals; false when no node is in use. A node's
+  /// sum has a fixed order of 2^D terms. `next`: of the block that is likely to come next.
+  bool (*collect)(const OutboxPointers<Real, D>& outboxes, const OutboxPointers<Real, D>& next, Real* nodes);
+  SpeedBound (*speed_bound)(const Real* nodes, Real lightest);
 };
 
 }  // namespace firn

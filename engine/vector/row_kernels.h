@@ -26,9 +26,9 @@ HWY_INLINE void gather_rows(const TileStencil<Real, D, gradient>& stencil, const
   constexpr int kLine = kScratchEdge * kQuad;
   const int at = particle * kQuad;
   const Real* first = nodes + stencil.first[particle];
-  const auto weight = [&](int d, int n) HWY_ATTR { return R::all(stencil.w[d][at + n]); };
-  const auto slope = [&](int d, int n) HWY_ATTR { return R::all(stencil.dw[d][at + n]); };
-  const R w_last = R::by_node(stencil.w[D - 1] + at);
+  const auto weight = [&](int d, int n) HWY_ATTR { return R::all(stencil.w[d][n][particle]); };
+  const auto slope = [&](int d, int n) HWY_ATTR { return R::all(stencil.dw[d][n][particle]); };
+  const R w_last = R::by_node(&stencil.w[D - 1][0][particle], kTileSize);
 
   if constexpr (D == 3) {
     R s[3], y[3], gy[3];
@@ -54,7 +54,7 @@ HWY_INLINE void gather_rows(const TileStencil<Real, D, gradient>& stencil, const
       (w_last * gx).sum().store(out[Out::kGradient] + at);
       const R along_y = fma(weight(0, 0), gy[0], fma(weight(0, 1), gy[1], weight(0, 2) * gy[2]));
       (w_last * along_y).sum().store(out[Out::kGradient + 1] + at);
-      const R slope_last = R::by_node(stencil.dw[2] + at);
+      const R slope_last = R::by_node(&stencil.dw[2][0][particle], kTileSize);
       (slope_last * fma(weight(0, 1), s[1], low + high)).sum().store(out[Out::kGradient + 2] + at);
     }
   } else {
@@ -69,7 +69,7 @@ HWY_INLINE void gather_rows(const TileStencil<Real, D, gradient>& stencil, const
     if constexpr (gradient) {
       const R gx = fma(slope(0, 0), r0, fma(slope(0, 1), r1, slope(0, 2) * r2));
       (w_last * gx).sum().store(out[Out::kGradient] + at);
-      (R::by_node(stencil.dw[1] + at) * across).sum().store(out[Out::kGradient + 1] + at);
+      (R::by_node(&stencil.dw[1][0][particle], kTileSize) * across).sum().store(out[Out::kGradient + 1] + at);
     }
   }
 }
@@ -82,15 +82,16 @@ HWY_INLINE void scatter_rows(const TileStencil<Real, D, gradient>& stencil, cons
   constexpr int kLine = kScratchEdge * kQuad;
   const int at = particle * kQuad;
   Real* first = nodes + stencil.first[particle];
-  const auto weight = [&](int d, int n) HWY_ATTR { return R::all(stencil.w[d][at + n]); };
-  const auto slope = [&](int d, int n) HWY_ATTR { return R::all(stencil.dw[d][at + n]); };
+  const auto weight = [&](int d, int n) HWY_ATTR { return R::all(stencil.w[d][n][particle]); };
+  const auto slope = [&](int d, int n) HWY_ATTR { return R::all(stencil.dw[d][n][particle]); };
   const auto record = [&](int k) HWY_ATTR { return R::repeated(in[k] + at); };
-  const R w_last = R::by_node(stencil.w[D - 1] + at);
+  const R w_last = R::by_node(&stencil.w[D - 1][0][particle], kTileSize);
 
   R q = record(0);
   if constexpr (moments) q = fma(node_offsets<Real>(), record(In::kMoment + D - 1), q);
   q = w_last * q;
-  if constexpr (gradient) q = fma(R::by_node(stencil.dw[D - 1] + at), record(In::kGradient + D - 1), q);
+  if constexpr (gradient)
+    q = fma(R::by_node(&stencil.dw[D - 1][0][particle], kTileSize), record(In::kGradient + D - 1), q);
 
   // The first axis: line i is w_i (q + (i - 1) A_x) + dw_i T_x, all already weighted along the last axis.
   R x, tx;

@@ -70,9 +70,9 @@ struct QuadRow {
     const Quad<R> one = Quad<R>::load(p);
     return {one, one, one};
   }
-  /// p[k] on all four numbers of node k.
-  static HWY_INLINE QuadRow by_node(const R* p) {
-    return {Quad<R>::all(p[0]), Quad<R>::all(p[1]), Quad<R>::all(p[2])};
+  /// p[k stride] on all four numbers of node k.
+  static HWY_INLINE QuadRow by_node(const R* p, int stride) {
+    return {Quad<R>::all(p[0]), Quad<R>::all(p[stride]), Quad<R>::all(p[2 * stride])};
   }
   HWY_INLINE Quad<R> sum() const { return q[0] + q[1] + q[2]; }
   HWY_INLINE Quad<R> last_less_first() const { return q[2] - q[0]; }
@@ -91,39 +91,45 @@ struct QuadRow {
   }
 };
 
-#if HWY_TARGET <= HWY_AVX3
-/// One register of 16 floats.
-struct FullRow {
-  using Tag = hn::FixedTag<float, 16>;
-  hn::Vec<Tag> v;
+#if HWY_TARGET <= HWY_AVX2
+/// Two nodes in a register of 8 floats, the third in one of 4.
+struct PairRow {
+  using Pair = hn::FixedTag<float, 8>;
+  using One = hn::FixedTag<float, 4>;
+  hn::Vec<Pair> a;
+  hn::Vec<One> b;
 
-  static HWY_INLINE FullRow load(const float* p) { return {hn::LoadU(Tag(), p)}; }
-  HWY_INLINE void store(float* p) const { hn::StoreU(v, Tag(), p); }
-  static HWY_INLINE FullRow all(float x) { return {hn::Set(Tag(), x)}; }
-  static HWY_INLINE FullRow repeated(const float* p) { return {hn::LoadDup128(Tag(), p)}; }
-  static HWY_INLINE FullRow by_node(const float* p) {
-    // Within node k, take number k of the quad.
-    return {
-        hn::Vec<Tag>{_mm512_permutevar_ps(_mm512_broadcast_f32x4(_mm_load_ps(p)),
-                                          _mm512_set_epi32(3, 3, 3, 3, 2, 2, 2, 2, 1, 1, 1, 1, 0, 0, 0, 0))}};
+  static HWY_INLINE PairRow load(const float* p) { return {hn::LoadU(Pair(), p), hn::LoadU(One(), p + 8)}; }
+  HWY_INLINE void store(float* p) const {
+    hn::StoreU(a, Pair(), p);
+    hn::StoreU(b, One(), p + 8);
   }
-  HWY_INLINE Quad<float> node(int k) const {
-    const __m512 x = v.raw;
-    const __m128 out = k == 0   ? _mm512_castps512_ps128(x)
-                       : k == 1 ? _mm512_extractf32x4_ps(x, 1)
-                                : _mm512_extractf32x4_ps(x, 2);
-    return {{hn::Vec<Quad<float>::Tag>{out}}};
+  static HWY_INLINE PairRow all(float x) {
+    const auto v = hn::Set(Pair(), x);
+    return {v, hn::LowerHalf(One(), v)};
   }
-  HWY_INLINE Quad<float> sum() const { return (node(0) + node(1)) + node(2); }
-  HWY_INLINE Quad<float> last_less_first() const { return node(2) - node(0); }
+  static HWY_INLINE PairRow repeated(const float* p) {
+    const auto v = hn::LoadDup128(Pair(), p);
+    return {v, hn::LowerHalf(One(), v)};
+  }
+  static HWY_INLINE PairRow by_node(const float* p, int stride) {
+    return {hn::ConcatUpperLower(Pair(), hn::Set(Pair(), p[stride]), hn::Set(Pair(), p[0])),
+            hn::Set(One(), p[2 * stride])};
+  }
+  HWY_INLINE Quad<float> sum() const {
+    return {{hn::Add(hn::Add(hn::LowerHalf(One(), a), hn::UpperHalf(One(), a)), b)}};
+  }
+  HWY_INLINE Quad<float> last_less_first() const { return {{hn::Sub(b, hn::LowerHalf(One(), a))}}; }
 
-  friend HWY_INLINE FullRow operator+(FullRow a, FullRow b) { return {hn::Add(a.v, b.v)}; }
-  friend HWY_INLINE FullRow operator-(FullRow a, FullRow b) { return {hn::Sub(a.v, b.v)}; }
-  friend HWY_INLINE FullRow operator*(FullRow a, FullRow b) { return {hn::Mul(a.v, b.v)}; }
-  friend HWY_INLINE FullRow fma(FullRow a, FullRow b, FullRow c) { return {hn::MulAdd(a.v, b.v, c.v)}; }
+  friend HWY_INLINE PairRow operator+(PairRow x, PairRow y) { return {hn::Add(x.a, y.a), hn::Add(x.b, y.b)}; }
+  friend HWY_INLINE PairRow operator-(PairRow x, PairRow y) { return {hn::Sub(x.a, y.a), hn::Sub(x.b, y.b)}; }
+  friend HWY_INLINE PairRow operator*(PairRow x, PairRow y) { return {hn::Mul(x.a, y.a), hn::Mul(x.b, y.b)}; }
+  friend HWY_INLINE PairRow fma(PairRow x, PairRow y, PairRow z) {
+    return {hn::MulAdd(x.a, y.a, z.a), hn::MulAdd(x.b, y.b, z.b)};
+  }
 };
 template <class R>
-using Row = std::conditional_t<sizeof(R) == 4, FullRow, QuadRow<R>>;
+using Row = std::conditional_t<sizeof(R) == 4, PairRow, QuadRow<R>>;
 #else
 template <class R>
 using Row = QuadRow<R>;
@@ -133,7 +139,7 @@ using Row = QuadRow<R>;
 template <class R>
 HWY_INLINE Row<R> node_offsets() {
   alignas(64) static constexpr R k[4] = {-1, 0, 1, 0};
-  return Row<R>::by_node(k);
+  return Row<R>::by_node(k, 1);
 }
 
 }  // namespace firn::FIRN_ISA

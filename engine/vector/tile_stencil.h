@@ -31,10 +31,11 @@ HWY_INLINE void load_quads(const Real* in, Lane<Real> (&out)[4]) {
 
 template <class Real, int D, bool kGradient>
 struct TileStencil {
-  alignas(64) Quads<Real> w[D];                   // of the three nodes along each axis
-  alignas(64) Quads<Real> dw[kGradient ? D : 1];  // their derivatives by x/h
-  alignas(64) std::int32_t first[kTileSize];      // of the scratch's numbers: the particle's first node
-  alignas(64) Real f[D][kTileSize];               // x/h less the middle node, in [-1/2, 1/2)
+  using Weights = Real[3][kTileSize];
+  alignas(64) Weights w[D];                   // of the three nodes along each axis
+  alignas(64) Weights dw[kGradient ? D : 1];  // their derivatives by x/h
+  alignas(64) std::int32_t first[kTileSize];  // of the scratch's numbers: the particle's first node
+  alignas(64) Real f[D][kTileSize];           // x/h less the middle node, in [-1/2, 1/2)
 
   /// `position`: the tile's column. Particles that are not where their block's scratch reaches (not finite,
   /// say) get a place in it all the same; the pass counts them as invalid.
@@ -50,8 +51,14 @@ struct TileStencil {
         const L x = cell - base - L(1);
         x.store(f[d] + at);
         const L half(0.5), low = half - x, high = half + x;
-        store_quads<Real>(half * low * low, L(0.75) - x * x, half * high * high, L(0), w[d] + at * kQuad);
-        if constexpr (kGradient) store_quads<Real>(-low, L(-2) * x, high, L(0), dw[d] + at * kQuad);
+        (half * low * low).store(w[d][0] + at);
+        (L(0.75) - x * x).store(w[d][1] + at);
+        (half * high * high).store(w[d][2] + at);
+        if constexpr (kGradient) {
+          (-low).store(dw[d][0] + at);
+          (L(-2) * x).store(dw[d][1] + at);
+          high.store(dw[d][2] + at);
+        }
       }
       const auto numbers = index * L(kQuad);
       if constexpr (sizeof(Real) == 4) {

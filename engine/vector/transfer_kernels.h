@@ -140,9 +140,25 @@ HWY_INLINE void scatter_tile(const BlockTask<Real, D>& task, const TileView<Real
     scatter_rows<Real, D, Transfer::affine, Work::kGradient>(work.stencil, work.record, p, nodes);
 }
 
+/// What a pass does with each tile.
+enum class Stages { begin, fused, finish, adjust };
+
+/// The columns that pass reads and writes of a tile.
+struct TileColumns {
+  ColumnSet read, written;
+};
+constexpr TileColumns columns_of(Stages stages) {
+  const ColumnSet state{Column::position, Column::elastic_deformation, Column::plastic_deformation};
+  const ColumnSet motion{Column::velocity, Column::affine};
+  const ColumnSet read = state | ColumnSet{Column::mass, Column::volume};
+  if (stages == Stages::begin) return {read | motion, state};
+  if (stages == Stages::finish) return {read, state | motion | ColumnSet{Column::stress}};
+  return {read, state};
+}
+
 /// A tile that the block shares with its neighbours is worked on in a copy: the block's own particles first,
 /// behind them copies of the first one, without mass and volume.
-template <class Real, int D>
+template <class Real, int D, Stages stages>
 class PartialTile {
  public:
   PartialTile(const ColumnPointers<Real>& tile, int first, int last)
@@ -151,40 +167,38 @@ class PartialTile {
     for (int c = 0; c < kColumnCount; ++c) {
       const auto column = static_cast<Column>(c);
       copy_[static_cast<std::size_t>(c)] = nullptr;
-      if (tile[static_cast<std::size_t>(c)] == nullptr) continue;
+      if (tile[static_cast<std::size_t>(c)] == nullptr || !kUsed.has(column)) continue;
       copy_[static_cast<std::size_t>(c)] = next;
       const bool extensive = column == Column::mass || column == Column::volume;
       const Real* from = tile[static_cast<std::size_t>(c)] + first;
-      for (int k = 0; k < components(column, D); ++k, from += kTileSize, next += kTileSize)
-        for (int p = 0; p < kTileSize; ++p) next[p] = p < count_ ? from[p] : extensive ? Real(0) : from[0];
+      for (int k = 0; k < components(column, D); ++k, from += kTileSize, next += kTileSize) {
+        const Lane<Real> rest(extensive ? 0.0 : static_cast<double>(from[0]));
+        for (int at = 0; at < kTileSize; at += kLanes<Real>) rest.store(next + at);
+        copy_first(from, next, count_);
+      }
     }
   }
   void write_back() const {
     for (int c = 0; c < kColumnCount; ++c) {
       const Real* from = copy_[static_cast<std::size_t>(c)];
-      if (from == nullptr) continue;
+      const auto column = static_cast<Column>(c);
+      if (from == nullptr || !columns_of(stages).written.has(column)) continue;
       Real* to = tile_[static_cast<std::size_t>(c)] + first_;
-      for (int k = 0; k < components(static_cast<Column>(c), D); ++k, from += kTileSize, to += kTileSize)
-        for (int p = 0; p < count_; ++p) to[p] = from[p];
+      for (int k = 0; k < components(column, D); ++k, from += kTileSize, to += kTileSize)
+        copy_first(from, to, count_);
     }
   }
   const ColumnPointers<Real>& columns() const { return copy_; }
   int count() const { return count_; }
 
  private:
-  static constexpr int all_components() {
-    int sum = 0;
-    for (int c = 0; c < kColumnCount; ++c) sum += components(static_cast<Column>(c), D);
-    return sum;
-  }
+  static constexpr ColumnSet kUsed = columns_of(stages).read | columns_of(stages).written;
+
   const ColumnPointers<Real>& tile_;
   ColumnPointers<Real> copy_;
   int first_, count_;
-  alignas(64) Real values_[all_components() * kTileSize];
+  alignas(64) Real values_[kUsed.reals(D) * kTileSize];
 };
-
-/// What a pass does with each tile.
-enum class Stages { begin, fused, finish, adjust };
 
 /// Seconds by stage, or nothing.
 template <bool on>
@@ -240,29 +254,78 @@ HWY_INLINE void run_tile(const BlockTask<Real, D>& task, const BatchTask<Real>& 
   }
 }
 
+/// Eight nodes along the last axis: the last of the block below, the block's four, the first three of the one
+/// above.
+template <class Real>
+HWY_INLINE void load_line(const Real* const* blocks, int line, Real* to) {
+  using Q = Quad<Real>;
+  constexpr int kEnd = kBlockEdge * kNodeReals;
+  const int at = line * kEnd;
+  Q::load(blocks[0] + at + kEnd - kNodeReals).store(to);
+  const Real* own = blocks[1] + at;
+  const Q a = Q::load(own), b = Q::load(own + 4), c = Q::load(own + 8), d = Q::load(own + 12);
+  a.store(to + 4), b.store(to + 8), c.store(to + 12), d.store(to + 16);
+  const Real* above = blocks[2] + at;
+  const Q e = Q::load(above), f = Q::load(above + 4), g = Q::load(above + 8);
+  e.store(to + 20), f.store(to + 24), g.store(to + 28);
+}
+
+/// Of a scratch line: the first of the three blocks it goes through, and its place in each.
+struct ScratchLine {
+  int blocks, line;
+};
+template <int D>
+HWY_INLINE ScratchLine scratch_line(int n) {
+  if constexpr (D == 2) return {(n + 3) / 4 * 3, (n + 3) % 4};
+  const int i = n / kScratchEdge + 3, j = n % kScratchEdge + 3;
+  return {(i / 4 * 3 + j / 4) * 3, i % 4 * kBlockEdge + j % 4};
+}
+template <int D>
+inline constexpr int kScratchLines = power(kScratchEdge, D - 1);
+
 template <class Real, int D>
 HWY_INLINE void load_scratch(const BlockTask<Real, D>& task, Real* scratch) {
-  // Along an axis: the last node of the lower neighbour, the block's four, three of the upper neighbour.
-  constexpr int kCount[3] = {1, 4, 3}, kFrom[3] = {3, 0, 0};
-  constexpr int kRow = kBlockEdge * kNodeReals;
-  const auto copy_line = [&](const Real* const* blocks, int line, Real* to) HWY_ATTR {
-    for (int b = 0; b < 3; ++b) {
-      const Real* from = blocks[b] + line * kRow + kFrom[b] * kNodeReals;
-      for (int n = 0; n < kCount[b]; ++n, to += kQuad) Quad<Real>::load(from + n * kNodeReals).store(to);
-    }
-  };
-  const Real* const* blocks = task.velocities.data();
-  for (int i = 0; i < kScratchEdge; ++i) {
-    const int block_i = (i + 3) / 4, local_i = (i + 3) % 4;
-    if constexpr (D == 2) {
-      copy_line(blocks + block_i * 3, local_i, scratch + i * kScratchEdge * kQuad);
-    } else {
-      for (int j = 0; j < kScratchEdge; ++j)
-        copy_line(blocks + (block_i * 3 + (j + 3) / 4) * 3, local_i * kBlockEdge + (j + 3) % 4,
-                  scratch + (i * kScratchEdge + j) * kScratchEdge * kQuad);
-    }
+  for (int n = 0; n < kScratchLines<D>; ++n, scratch += kScratchEdge * kQuad) {
+    const ScratchLine from = scratch_line<D>(n);
+    load_line(task.velocities.data() + from.blocks, from.line, scratch);
   }
 }
+
+/// The columns of the tile behind this one. The last tile's asks for what is not there, which does nothing.
+template <class Real, int D, Stages stages>
+HWY_INLINE void prefetch_next(const ColumnPointers<Real>& tile) {
+  for (int c = 0; c < kColumnCount; ++c) {
+    const auto column = static_cast<Column>(c);
+    const Real* const p = tile[static_cast<std::size_t>(c)];
+    if (!columns_of(stages).read.has(column) || p == nullptr) continue;
+    const auto n = static_cast<std::size_t>(components(column, D)) * kTile;
+    prefetch<3>(p + n, n * sizeof(Real));
+  }
+}
+
+/// What is needed at the end of the block and at the start of the next one is fetched a bit with each tile:
+/// the outbox, and of the next block's velocities those that this block does not have.
+template <class Real, int D, Stages stages>
+class Prefetcher {
+ public:
+  HWY_INLINE explicit Prefetcher(const BlockTask<Real, D>& task) : task_(task) {}
+  HWY_INLINE void fetch_some() {
+    constexpr int kAtATime = D == 3 ? 2 : 1, kLine = kScratchEdge * kQuad;
+    for (int k = 0; k < kAtATime && line_ < kScratchLines<D>; ++k, ++line_) {
+      if constexpr (stages != Stages::finish) prefetch<2>(task_.outbox + line_ * kLine, kLine * sizeof(Real));
+      if constexpr (stages == Stages::fused || stages == Stages::finish) {
+        const ScratchLine next = scratch_line<D>(line_);
+        prefetch<2>(
+            task_.next_velocities[static_cast<std::size_t>(next.blocks + 2)] + next.line * kBlockEdge * kQuad,
+            kBlockEdge * kQuad * sizeof(Real));
+      }
+    }
+  }
+
+ private:
+  const BlockTask<Real, D>& task_;
+  int line_ = 0;
+};
 
 template <class Real, int D, class Transfer, Stages stages, bool timed>
 HWY_INLINE void run_tiles(BlockTask<Real, D>& task, const Real* in, Real* out) {
@@ -271,6 +334,7 @@ HWY_INLINE void run_tiles(BlockTask<Real, D>& task, const Real* in, Real* out) {
   for (auto& quads : work.record)
     for (Real& x : quads) x = 0;
   LaneMotion<Real> motion;
+  Prefetcher<Real, D, stages> prefetcher(task);
   for (const BatchTask<Real>& batch : task.batches)
     for (std::size_t first = batch.first; first < batch.last;) {
       const std::size_t tile_first = first / kTile * kTile, last = std::min(batch.last, tile_first + kTile);
@@ -282,11 +346,13 @@ HWY_INLINE void run_tiles(BlockTask<Real, D>& task, const Real* in, Real* out) {
                 ? nullptr
                 : column + tile_first * static_cast<std::size_t>(components(static_cast<Column>(c), D));
       }
+      prefetch_next<Real, D, stages>(columns);
+      prefetcher.fetch_some();
       if (last - first == kTile) {
         run_tile<Real, D, Transfer, stages, timed>(task, batch, columns, kTileSize, in, out, work, motion);
       } else {
-        PartialTile<Real, D> part(columns, static_cast<int>(first - tile_first),
-                                  static_cast<int>(last - tile_first));
+        PartialTile<Real, D, stages> part(columns, static_cast<int>(first - tile_first),
+                                          static_cast<int>(last - tile_first));
         run_tile<Real, D, Transfer, stages, timed>(task, batch, part.columns(), part.count(), in, out, work,
                                                    motion);
         part.write_back();
@@ -308,15 +374,14 @@ void run_block(BlockTask<Real, D>& task) {
     for (int i = 0; i < kQuad; ++i) in[kReals + i] = 0;
   }
   if constexpr (stages == Stages::adjust)
-    for (int i = 0; i < kReals; ++i) out[i] = task.outbox[i];
+    copy_numbers<kReals>(task.outbox, out);
   else if constexpr (stages != Stages::finish)
-    for (int i = 0; i < kReals; ++i) out[i] = 0;
+    fill_zero<kReals>(out);
   if (task.times != nullptr)
     run_tiles<Real, D, Transfer, stages, true>(task, in, out);
   else
     run_tiles<Real, D, Transfer, stages, false>(task, in, out);
-  if constexpr (stages != Stages::finish)
-    for (int i = 0; i < kReals; ++i) task.outbox[i] = out[i];
+  if constexpr (stages != Stages::finish) copy_numbers<kReals>(out, task.outbox);
 }
 
 template <class Real, int D, class Transfer>

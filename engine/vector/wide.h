@@ -175,6 +175,49 @@ HWY_INLINE Wide<R, N> inverse_sqrt(const Wide<R, N>& x) {
   return y;
 }
 
+/// The first `n` numbers of `from` to `to`; of the registers' width, what lies beyond is neither read nor
+/// written.
+template <class R>
+HWY_INLINE void copy_first(const R* from, R* to, int n) {
+#if HWY_TARGET <= HWY_AVX3
+  const hn::ScalableTag<R> tag;
+  for (const int width = static_cast<int>(hn::MaxLanes(tag)); n > 0; n -= width, from += width, to += width) {
+    const auto mask = hn::FirstN(tag, static_cast<std::size_t>(n));
+    hn::BlendedStore(hn::MaskedLoad(mask, tag, from), mask, tag, to);
+  }
+#else
+  for (int i = 0; i < n; ++i) to[i] = from[i];
+#endif
+}
+
+// Aligned, and a multiple of a register; the compiler would call memcpy and memset for as much or use string
+// instructions, which take their time to start.
+template <int n, class R>
+HWY_INLINE void copy_numbers(const R* from, R* to) {
+  const hn::ScalableTag<R> tag;
+  for (int i = 0; i < n; i += static_cast<int>(hn::MaxLanes(tag))) {
+    auto v = hn::Load(tag, from + i);
+    asm("" : "+v"(v.raw));
+    hn::Store(v, tag, to + i);
+  }
+}
+template <int n, class R>
+HWY_INLINE void fill_zero(R* to) {
+  const hn::ScalableTag<R> tag;
+  auto zero = hn::Zero(tag);
+  for (int i = 0; i < n; i += static_cast<int>(hn::MaxLanes(tag))) {
+    asm("" : "+v"(zero.raw));
+    hn::Store(zero, tag, to + i);
+  }
+}
+
+/// Asks for the `bytes` from `p` on, before they are needed.
+template <int locality>
+HWY_INLINE void prefetch(const void* p, std::size_t bytes) {
+  for (std::size_t line = 0; line < bytes; line += 64)
+    __builtin_prefetch(static_cast<const char*>(p) + line, 0, locality);
+}
+
 template <class R, int N>
 HWY_INLINE R largest(const Wide<R, N>& a) {
   auto m = a.v[0];
