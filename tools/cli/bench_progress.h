@@ -21,16 +21,18 @@ class BenchProgress {
   void show(std::string_view what) {
     // Shorter than a terminal is wide: a line that wraps cannot be redrawn.
     if (on_) std::cerr << "\r\x1b[K" << printable(what, 70) << std::flush;
+    line_open_ = on_;
   }
   void show(int round, std::string_view what) { show(fmt::format("round {}/{}: {}", round, rounds_, what)); }
-  /// Removes the line.
+  /// Removes the line, if there is one.
   void finish() {
-    if (on_) std::cerr << "\r\x1b[K" << std::flush;
+    if (line_open_) std::cerr << "\r\x1b[K" << std::flush;
+    line_open_ = false;
   }
 
  private:
   int rounds_;
-  bool on_;
+  bool on_, line_open_ = false;
 };
 
 }  // namespace firn
