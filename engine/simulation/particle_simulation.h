@@ -48,6 +48,7 @@ class ParticleSimulation : public Simulation {
   std::size_t particles() const override { return count_; }
   std::size_t sorts() const override { return sorts_; }
   std::size_t blocks() const override { return layout_.size(); }
+  std::size_t occupied_blocks() const override { return layout_.occupied(); }
   const PassTimes& times() const override { return times_; }
 
  protected:

@@ -49,9 +49,11 @@ class Simulation {
   virtual FrameView view() = 0;
 
   virtual std::size_t particles() const = 0;
-  /// Steps so far that sorted, blocks in use, bytes held by particles and grid.
+  /// Steps so far that sorted, blocks in use and those of them with particles, bytes held by particles and
+  /// grid.
   virtual std::size_t sorts() const = 0;
   virtual std::size_t blocks() const = 0;
+  virtual std::size_t occupied_blocks() const = 0;
   virtual std::size_t bytes() const = 0;
   virtual const PassTimes& times() const = 0;
 };

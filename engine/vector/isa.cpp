@@ -6,10 +6,10 @@
 #include <hwy/targets.h>
 
 #include "engine/base/error.h"
+#include "engine/vector/targets/fma.h"
 #include "engine/vector/targets/tables.h"
 
 namespace firn {
-namespace {
 
 bool available(Isa isa) {
   const auto targets = static_cast<std::uint64_t>(hwy::SupportedTargets());
@@ -24,22 +24,19 @@ bool available(Isa isa) {
   return false;
 }
 
-}  // namespace
-
 std::string_view name(Isa isa) {
   return isa == Isa::avx512 ? "avx512" : isa == Isa::avx2 ? "avx2" : "sse4";
 }
 
 std::optional<Isa> best_isa() {
-  constexpr Isa all[] = {Isa::avx512, Isa::avx2, Isa::sse4};
   const char* wanted = std::getenv("FIRN_ISA");
   if (wanted == nullptr || *wanted == '\0') {
-    for (const Isa isa : all)
+    for (const Isa isa : kIsas)
       if (available(isa)) return isa;
     return std::nullopt;
   }
   if (std::string_view(wanted) == "none") return std::nullopt;
-  for (const Isa isa : all) {
+  for (const Isa isa : kIsas) {
     if (name(isa) != wanted) continue;
     if (available(isa)) return isa;
     throw Error(ExitCode::environment, fmt::format("FIRN_ISA={}: this processor does not have it", wanted));
@@ -65,5 +62,20 @@ template KernelTable<float, 2> kernel_table(Isa);
 template KernelTable<float, 3> kernel_table(Isa);
 template KernelTable<double, 2> kernel_table(Isa);
 template KernelTable<double, 3> kernel_table(Isa);
+
+template <class Real>
+FmaBurst fma_burst(Isa isa) {
+  switch (isa) {
+    case Isa::avx512:
+      return avx512::fma_burst<Real>();
+    case Isa::avx2:
+      return avx2::fma_burst<Real>();
+    case Isa::sse4:
+      break;
+  }
+  return sse4::fma_burst<Real>();
+}
+template FmaBurst fma_burst<float>(Isa);
+template FmaBurst fma_burst<double>(Isa);
 
 }  // namespace firn

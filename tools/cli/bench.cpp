@@ -2,149 +2,153 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <tbb/global_control.h>
 
-#include "engine/base/error.h"
-#include "engine/base/nearest_name.h"
-#include "engine/base/parallel.h"
-#include "engine/scene/reader.h"
 #include "engine/scene/seed_check.h"
 #include "engine/simulation/run.h"
 #include "tools/cli/bench_cases.h"
+#include "tools/cli/bench_ceilings.h"
+#include "tools/cli/bench_progress.h"
+#include "tools/cli/bench_samples.h"
+#include "tools/cli/bench_table.h"
+#include "tools/cli/bench_vs.h"
+#include "tools/cli/work_count.h"
 
 namespace firn {
 namespace {
-
-struct Case {
-  std::string name;
-  Plan plan;
-  std::vector<Seeds> seeds;
-  int steps;  // of a round; 0: to the scene's end
-};
 
 /// What a round took.
 struct Round {
   std::int64_t steps = 0;
   double seconds = 0;
   std::array<double, PassTimes::count> passes{};
-
-  double per_step() const { return seconds / static_cast<double>(steps); }
 };
 
 struct Measurement {
-  const Case* of;
-  int threads;
-  std::optional<Isa> isa;
+  BenchRun run;
   std::size_t particles = 0, bytes = 0;
-  std::vector<Round> rounds;
+  Work work;                    // of the vectorised path
+  std::vector<double> samples;  // ns per particle and step, by round
+  Round best;
 
-  const Round& best() const {
-    return *std::min_element(rounds.begin(), rounds.end(),
-                             [](const Round& a, const Round& b) { return a.per_step() < b.per_step(); });
-  }
-  double median_per_step() const {
-    std::vector<double> all;
-    for (const Round& r : rounds) all.push_back(r.per_step());
-    std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2), all.end());
-    return all[all.size() / 2];
+  double per_update(double seconds, std::int64_t steps) const {
+    return 1e9 * seconds / (static_cast<double>(steps) * static_cast<double>(particles));
   }
 };
 
-Case make_case(const std::string& name, const BenchOptions& options) {
-  const auto built_in = std::find_if(std::begin(kBenchCases), std::end(kBenchCases),
-                                     [&](const BenchCase& c) { return c.name == name; });
-  const bool found = built_in != std::end(kBenchCases);
-  Case out{name,
-           make_plan(found ? read_scene_text(bench_scene(*built_in), name + ".toml", options.overrides)
-                           : read_scene(name, options.overrides)),
-           {},
-           options.steps > 0 ? options.steps
-           : found           ? kBenchSteps
-                             : 0};
-  std::vector<std::string> warnings;
-  out.seeds = seed_bodies(out.plan, warnings);
+using AllSeeds = std::map<const BenchSubject*, std::vector<Seeds>>;
+
+AllSeeds seed_subjects(const std::vector<BenchRun>& runs) {
+  AllSeeds out;
+  std::vector<std::string> warnings;  // not of the scene's speed
+  for (const BenchRun& run : runs)
+    if (!out.contains(run.subject.get())) out[run.subject.get()] = seed_bodies(run.subject->plan, warnings);
   return out;
 }
 
-std::optional<Isa> find_isa(const std::string& text) {
-  static constexpr Isa kAll[] = {Isa::sse4, Isa::avx2, Isa::avx512};
-  std::vector<std::string_view> names;
-  for (const Isa isa : kAll) {
-    if (name(isa) == text) return isa;
-    names.push_back(name(isa));
-  }
-  throw Error(ExitCode::input, "--isa: " + unknown_name("instruction set", text, names));
+int steps_of(const BenchRun& run, const BenchOptions& options) {
+  if (options.steps > 0) return options.steps;
+  return find_bench_case(run.subject->name) != nullptr ? kBenchSteps : 0;
 }
 
-void measure(Measurement& m) {
+Work work_of(const Plan& plan, std::span<const Seeds> seeds, std::size_t occupied_blocks) {
+  std::vector<std::size_t> particles(plan.batches.size());
+  for (std::size_t b = 0; b < seeds.size(); ++b) particles[plan.bodies[b].batch] += seeds[b].position.size();
+  return count_work(plan, particles, occupied_blocks);
+}
+
+/// One more round. `steps`: 0 to the scene's end.
+void measure(Measurement& m, std::span<const Seeds> seeds, int steps) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                  static_cast<std::size_t>(m.threads));
-  Plan plan = m.of->plan;
-  if (m.isa) plan.path.isa = m.isa;
-  const std::unique_ptr<Simulation> simulation = make_simulation(plan, m.of->seeds);
-  m.particles = simulation->particles();
+                                  static_cast<std::size_t>(m.run.threads));
+  Plan plan = m.run.subject->plan;
+  plan.path.isa = m.run.isa;
+  const std::unique_ptr<Simulation> simulation = make_simulation(plan, seeds);
   Round round;
   const StepListener listener = [&](int, double, double) { ++round.steps; };
-  const StopRequested stop = [&] { return m.of->steps > 0 && round.steps == m.of->steps; };
+  const StopRequested stop = [&] { return steps > 0 && round.steps == steps; };
   const auto start = std::chrono::steady_clock::now();
   // No frame is looked at.
   run_frames(*simulation, plan.scene.simulation.frame_rate, plan.frames() + 1, plan.frames(), {}, listener,
              stop);
   round.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   round.passes = simulation->times().seconds;
+
+  m.particles = simulation->particles();
   m.bytes = simulation->bytes();
-  m.rounds.push_back(round);
+  if (m.run.isa) m.work = work_of(plan, seeds, simulation->occupied_blocks());
+  m.samples.push_back(m.per_update(round.seconds, round.steps));
+  if (m.samples.back() == best(m.samples)) m.best = round;
 }
 
-std::string_view precision(const Plan& plan) {
-  return plan.scene.simulation.precision == Precision::single ? "float" : "double";
-}
-
-nlohmann::ordered_json to_json(const Measurement& m) {
-  const Round& best = m.best();
-  const double per_update = 1e9 / (static_cast<double>(best.steps) * static_cast<double>(m.particles));
-  nlohmann::ordered_json passes;
-  for (std::size_t p = 0; p < best.passes.size(); ++p)
-    if (best.passes[p] > 0) passes[std::string(PassTimes::names[p])] = best.passes[p] * per_update;
-  const std::optional<Isa> isa = m.isa ? m.isa : m.of->plan.path.isa;
-  return {{"case", m.of->name},
-          {"precision", precision(m.of->plan)},
-          {"threads", m.threads},
-          {"isa", isa ? name(*isa) : "plain"},
+nlohmann::ordered_json row(const Measurement& m, const Ceilings& ceilings) {
+  const double ns = best(m.samples);
+  nlohmann::ordered_json flops, bytes, fma_fraction, bandwidth_fraction, passes;
+  if (m.run.isa) {
+    flops = m.work.flops;
+    bytes = m.work.bytes;
+    // Operations or bytes in a nanosecond are 1e9 of them in a second.
+    fma_fraction = m.work.flops / ns / ceilings.gflops(m.run);
+    bandwidth_fraction = m.work.bytes / ns / ceilings.gb_per_s(m.run);
+  }
+  for (std::size_t p = 0; p < m.best.passes.size(); ++p) {
+    auto& pass = passes[std::string(PassTimes::names[p])];
+    if (m.best.passes[p] > 0) pass = m.per_update(m.best.passes[p], m.best.steps);
+  }
+  return {{"case", m.run.subject->name},
+          {"precision", name(m.run.precision())},
+          {"threads", m.run.threads},
+          {"isa", m.run.isa_name()},
           {"particles", m.particles},
-          {"steps", best.steps},
-          {"ns_per_particle_step", best.seconds * per_update},
-          {"median_ns", m.median_per_step() * 1e9 / static_cast<double>(m.particles)},
-          {"million_per_second", 1e3 / (best.seconds * per_update)},
+          {"steps", m.best.steps},
+          {"ns_per_particle_step", ns},
+          {"median_ns", median(m.samples)},
+          {"million_per_second", 1e3 / ns},
           {"bytes_per_particle", static_cast<double>(m.bytes) / static_cast<double>(m.particles)},
+          {"flops_per_particle_step", flops},
+          {"bytes_per_particle_step", bytes},
+          {"fma_fraction", fma_fraction},
+          {"bandwidth_fraction", bandwidth_fraction},
           {"passes", passes}};
+}
+
+void print(const std::vector<Measurement>& measurements, const Ceilings& ceilings, bool json,
+           std::ostream& out) {
+  BenchRows rows;
+  for (const Measurement& m : measurements) rows.push_back(row(m, ceilings));
+  if (json) {
+    print_json(rows, out);
+    print_json(ceilings.rows(), out);
+    return;
+  }
+  print_csv(rows, out);
+  if (ceilings.rows().empty()) return;
+  out << '\n';
+  print_csv(ceilings.rows(), out);
 }
 
 }  // namespace
 
 int run_bench(const BenchOptions& options, std::ostream& out) {
-  std::vector<std::string> names = options.scenes;
-  if (names.empty())
-    for (const BenchCase& c : kBenchCases) names.emplace_back(c.name);
-  std::vector<int> threads = options.threads;
-  if (threads.empty()) threads = {1};
-  if (options.threads.empty() && default_threads() > 1) threads.push_back(default_threads());
-  std::vector<std::optional<Isa>> isas;
-  for (const std::string& isa : options.isas) isas.push_back(find_isa(isa));
-  if (isas.empty()) isas.push_back(std::nullopt);
-
-  std::vector<Case> cases;
-  for (const std::string& name : names) cases.push_back(make_case(name, options));
+  const std::vector<BenchRun> runs = list_runs(options);
+  if (options.vs) return compare_builds(options, runs, out);
+  BenchProgress progress(options.rounds);
+  progress.show("seeding");
+  const AllSeeds seeds = seed_subjects(runs);
   std::vector<Measurement> measurements;
-  for (const Case& c : cases)
-    for (const std::optional<Isa>& isa : isas)
-      for (const int n : threads) measurements.push_back({&c, n, isa, 0, 0, {}});
-  for (int r = 0; r < options.rounds; ++r)
-    for (Measurement& m : measurements) measure(m);
-  for (const Measurement& m : measurements) out << to_json(m).dump() << '\n';
+  for (const BenchRun& run : runs) measurements.push_back({run, 0, 0, {}, {}, {}});
+  Ceilings ceilings;
+  // In turns: a machine that slows down slows down everything.
+  for (int r = 1; r <= options.rounds; ++r)
+    for (Measurement& m : measurements) {
+      progress.show(r, m.run.title());
+      ceilings.measure(m.run);
+      measure(m, seeds.at(m.run.subject.get()), steps_of(m.run, options));
+    }
+  progress.finish();
+  print(measurements, ceilings, options.json, out);
   return 0;
 }
 

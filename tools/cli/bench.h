@@ -1,6 +1,7 @@
-// firn bench: particle updates per second, pass by pass.
+// firn bench: particle updates per second, pass by pass, beside what the machine could do.
 #pragma once
 
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -8,12 +9,13 @@
 namespace firn {
 
 struct BenchOptions {
-  std::vector<std::string> scenes;     // files or built-in cases; empty: all built-in cases
+  std::vector<std::string> scenes;     // files or built-in cases; empty: kBenchDefaults (bench_cases.h)
   std::vector<std::string> overrides;  // a.b=v
   std::vector<int> threads;            // empty: 1 and all cores
-  std::vector<std::string> isas;       // empty: the widest
+  std::vector<std::string> isas;       // empty: the widest, or what kBenchDefaults says
   int rounds = 5;
-  int steps = 0;  // of a round; 0: the whole scene, or what the built-in case says
+  int steps = 0;                  // of a round; 0: the whole scene, or what the built-in case says
+  std::optional<std::string> vs;  // another build of this program to compare with
   bool json = false;
 };
 

@@ -1,10 +1,13 @@
-// The scenes `firn bench` brings along: a spinning box of a million particles, eight in a cell, in free space.
-// No grid effect and no frame interrupts the steps, so that they cost what the method costs; the spin keeps
-// particles crossing cells, so that sorting is part of it.
+// The scenes `firn bench` brings along: a spinning box of a million particles, eight in a cell, in free
+// space. No grid effect and no frame interrupts the steps, so that they cost what the method costs; the spin
+// keeps particles crossing cells, so that sorting is part of it.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
+
+#include "engine/vector/isa.h"
 
 namespace firn {
 
@@ -23,6 +26,21 @@ poissons_ratio = 0.2
 )"},
 };
 inline constexpr int kBenchSteps = 48;
+
+/// Null when there is none of this name.
+constexpr const BenchCase* find_bench_case(std::string_view name) {
+  for (const BenchCase& c : kBenchCases)
+    if (c.name == name) return &c;
+  return nullptr;
+}
+
+/// What is measured when no scene is named.
+struct BenchDefault {
+  std::string_view name, precision;
+  std::optional<Isa> isa;  // where it is not the widest one that the processor has; empty: the widest
+};
+inline constexpr BenchDefault kBenchDefaults[] = {
+    {"elastic", "float", {}}, {"snow", "float", {}}, {"snow", "double", {}}, {"snow", "float", Isa::avx2}};
 
 inline std::string bench_scene(const BenchCase& bench_case) {
   return R"([simulation]
