@@ -54,6 +54,10 @@ HWY_INLINE void gather_tile(const BlockTask<Real, D>& task, const TileView<Real,
   work.stencil.place(tile.at(Column::position), Real(1) / task.h, task.block);
   for (int p = 0; p < n; ++p)
     gather_rows<Real, D, Transfer::affine, Work::kGradient>(work.stencil, nodes, p, work.record);
+  // The copies of the first particle that fill a partial tile do as it does: the largest speed is of them
+  // all.
+  for (int p = n; p < kTileSize; ++p)
+    for (Real* quads : work.record) Quad<Real>::load(quads).store(quads + p * kQuad);
 
   const L dt(task.dt), inverse_h(Real(1) / task.h), reach(task.h * Real(kMaxCell - 2 * kBlockEdge));
   for (int at = 0; at < kTileSize; at += kLanes<Real>) {
@@ -100,7 +104,8 @@ HWY_INLINE void gather_tile(const BlockTask<Real, D>& task, const TileView<Real,
     }
     // Written so that a NaN counts; a maximum would lose it.
     const auto valid = extent + L(0) * (speed2 + finite) <= reach;
-    motion.invalid += kLanes<Real> - count(valid);
+    const auto real = L::load(tile.at(Column::volume) + at) > L(0);  // not a copy
+    motion.invalid += count((!valid) & real);
   }
 }
 
@@ -330,9 +335,6 @@ class Prefetcher {
 template <class Real, int D, class Transfer, Stages stages, bool timed>
 HWY_INLINE void run_tiles(BlockTask<Real, D>& task, const Real* in, Real* out) {
   TileWork<Real, D, Transfer> work;
-  // Particles beyond the last one of a partial tile are not gathered; what stands for them is zero.
-  for (auto& quads : work.record)
-    for (Real& x : quads) x = 0;
   LaneMotion<Real> motion;
   Prefetcher<Real, D, stages> prefetcher(task);
   for (const BatchTask<Real>& batch : task.batches)

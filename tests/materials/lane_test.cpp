@@ -1,8 +1,8 @@
 // Materials are written once for numbers and for lanes of numbers.
 #include <catch2/catch.hpp>
 
+#include "tests/engine/math/pair_lane.h"
 #include "tests/materials/model_cases.h"
-#include "tests/materials/pair_lane.h"
 
 using namespace firn;
 using namespace firn::test;

@@ -13,14 +13,17 @@ struct Simulated {
   Plan plan;
   std::unique_ptr<Simulation> simulation;
 
+  /// `change`: what to do with the seeds before anything is made of them.
   explicit Simulated(const std::string& toml, std::vector<std::string> overrides = {},
-                     const std::filesystem::path& folder = FIRN_TEST_DATA)
+                     const std::filesystem::path& folder = FIRN_TEST_DATA,
+                     const std::function<void(std::vector<Seeds>&)>& change = {})
       : plan(make_plan(read_scene_text(toml, folder / "scene.toml", overrides))) {
     std::vector<Seeds> seeds;
     const SimulationDescription& s = plan.scene.simulation;
     for (std::size_t b = 0; b < plan.bodies.size(); ++b)
       seeds.push_back(seed_body(plan.scene.bodies[b], plan.bodies[b].shape.get(), s.dimension, s.cell_size,
                                 s.seed, b, plan.scene.file.parent_path(), plan.warnings));
+    if (change) change(seeds);
     simulation = make_simulation(plan, seeds);
   }
   Simulated(const Simulated&) = delete;

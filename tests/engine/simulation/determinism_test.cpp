@@ -1,11 +1,12 @@
 #include <bit>
 
 #include <catch2/catch.hpp>
-#include <tbb/global_control.h>
 
 #include "tests/support/simulated.h"
+#include "tests/support/threads.h"
 
 using firn::test::Simulated;
+using firn::test::with_threads;
 
 namespace {
 
@@ -50,10 +51,10 @@ attributes = ["F_E", "F_P", "C", "stress"]
 
 // Everything that is written, particle by particle, as bits.
 std::vector<std::uint32_t> state(const std::string& overrides, int threads) {
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                  static_cast<std::size_t>(threads));
   Simulated run(kScene, {overrides});
-  for (int n = 0; n < 40; ++n) run->step(run->stable_dt());
+  with_threads(threads, [&] {
+    for (int n = 0; n < 40; ++n) run->step(run->stable_dt());
+  });
   std::vector<std::uint32_t> out;
   for (const char* name : {"P", "v", "F_E", "F_P", "stress"})
     for (float x : run.attribute(name)) out.push_back(std::bit_cast<std::uint32_t>(x));
