@@ -106,14 +106,14 @@ SpeedBound speed_bound(const Real* nodes, Real lightest) {
     const L part = share * q[D];
     L speed(0);
     for (int d = 0; d < D; ++d) {
-      speed = max(abs(q[d]), speed);
-      finite = finite + L(0) * q[d];  // a maximum would lose a NaN
+      const L v = select(part > L(0), q[d], L(0));
+      speed = max(abs(v), speed);
+      finite = finite + L(0) * v;  // a maximum would lose a NaN
     }
     const auto is_heavy = part >= L(1);
     heavy = max(select(is_heavy, speed, L(0)), heavy);
     light = max(select(is_heavy, L(0), part * speed), light);
   }
-  // A node that is not in use has whatever momentum underflow left it, which is finite.
   if (any(!(finite == L(0)))) return {std::numeric_limits<double>::infinity(), 0};
   return {static_cast<double>(largest(heavy)), static_cast<double>(largest(light))};
 }

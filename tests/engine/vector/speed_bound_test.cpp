@@ -1,13 +1,30 @@
-#include "engine/passes/speed_bound.h"
-
 #include <catch2/catch.hpp>
 
 #include "engine/passes/batch.h"
+#include "engine/vector/isa.h"
 #include "tests/support/random_batch.h"
 
 using namespace firn;
 
 namespace {
+
+/// Of whole blocks of nodes; the same whatever the instruction set.
+template <class Real, int D>
+SpeedBound speed_bound(std::span<const Node<Real, D>> nodes, Real lightest) {
+  std::optional<SpeedBound> out;
+  for (const Isa isa : kIsas) {
+    if (!available(isa)) continue;
+    SpeedBound bound;
+    for (std::size_t n = 0; n < nodes.size(); n += kBlockNodes<D>)
+      bound.join(kernel_table<Real, D>(isa).grid.speed_bound(&nodes[n].v[0], lightest));
+    if (out) {
+      REQUIRE(out->heavy == bound.heavy);
+      REQUIRE(out->light == bound.light);
+    }
+    out = bound;
+  }
+  return *out;
+}
 
 /// Particles in a block, and the nodes of its scratch with their mass.
 template <class Real, int D>
@@ -47,7 +64,7 @@ struct Cloud {
 
 }  // namespace
 
-TEMPLATE_TEST_CASE_SIG("no particle is faster than the bound, however fast the light nodes are", "",
+TEMPLATE_TEST_CASE_SIG("no particle is faster than the bound, however fast the light nodes are", "[vector]",
                        FIRN_PATH_KINDS) {
   std::mt19937 random(23);
   std::uniform_real_distribution<double> unit(-1, 1), any(0, 1);
@@ -70,7 +87,7 @@ TEMPLATE_TEST_CASE_SIG("no particle is faster than the bound, however fast the l
   CHECK(tightest > 0.8);  // and the bound is not far from what happens
 }
 
-TEMPLATE_TEST_CASE_SIG("a node that hardly any mass reaches hardly counts", "", FIRN_PATH_KINDS) {
+TEMPLATE_TEST_CASE_SIG("a node that hardly any mass reaches hardly counts", "[vector]", FIRN_PATH_KINDS) {
   std::vector<Node<Real, D>> nodes(64);
   for (auto& node : nodes) node = {Vector<Real, D>::constant(Real(-2)), Real(1)};
   nodes[5] = {Vector<Real, D>::constant(Real(1e6)), Real(1e-9)};
@@ -81,17 +98,18 @@ TEMPLATE_TEST_CASE_SIG("a node that hardly any mass reaches hardly counts", "", 
         Approx(expected).epsilon(1e-6));
 }
 
-TEMPLATE_TEST_CASE_SIG("bounds of blocks join to the bound of all", "", FIRN_PATH_KINDS) {
+TEMPLATE_TEST_CASE_SIG("bounds of blocks join to the bound of all", "[vector]", FIRN_PATH_KINDS) {
   std::mt19937 random(24);
   Cloud<Real, D> cloud(5, random);
   for (std::size_t n = 0; n < cloud.nodes.size(); ++n) cloud.nodes[n].v[0] = static_cast<Real>(n % 13);
   SpeedBound joined;
-  for (std::size_t n = 0; n < cloud.nodes.size(); n += 8)
-    joined.join(speed_bound<Real, D>(std::span(std::as_const(cloud.nodes)).subspan(n, 8), cloud.lightest));
+  for (std::size_t n = 0; n < cloud.nodes.size(); n += kBlockNodes<D>)
+    joined.join(speed_bound<Real, D>(std::span(std::as_const(cloud.nodes)).subspan(n, kBlockNodes<D>),
+                                     cloud.lightest));
   CHECK(joined.value() == cloud.bound());
 }
 
-TEMPLATE_TEST_CASE_SIG("a velocity that is not finite gives no finite bound", "", FIRN_PATH_KINDS) {
+TEMPLATE_TEST_CASE_SIG("a velocity that is not finite gives no finite bound", "[vector]", FIRN_PATH_KINDS) {
   using Limits = std::numeric_limits<Real>;
   for (const Real bad : {Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity()})
     for (const Real mass : {Real(1e-6), Real(1e6)})  // light and heavy
