@@ -87,6 +87,11 @@ class ColumnSet {
     out.bits_ = a.bits_ | b.bits_;
     return out;
   }
+  friend constexpr ColumnSet operator&(ColumnSet a, ColumnSet b) {
+    ColumnSet out;
+    out.bits_ = a.bits_ & b.bits_;
+    return out;
+  }
   friend constexpr bool operator==(ColumnSet, ColumnSet) = default;
 
   /// Real numbers per particle of all columns together.

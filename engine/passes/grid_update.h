@@ -8,11 +8,6 @@
 
 namespace firn {
 
-template <class Real, int D>
-void apply_effects(BlockNodes<Real, D>& block, double dt, std::span<const StepEffect> effects) {
-  for (const StepEffect& effect : effects) std::visit([&](const auto& e) { e.apply(block, dt); }, effect);
-}
-
 /// One block, `block.before` with it when the scheme keeps one.
 template <class Real, int D>
 void update_block(BlockNodes<Real, D>& block, double dt, std::span<const StepEffect> effects) {
@@ -26,7 +21,8 @@ void update_block(BlockNodes<Real, D>& block, double dt, std::span<const StepEff
     if (!block.before.empty())
       for (int d = 0; d < D; ++d) block.before[n][d] /= node.m;
   }
-  if (used) apply_effects(block, dt, effects);
+  if (used)
+    for (const StepEffect& effect : effects) std::visit([&](const auto& e) { e.apply(block, dt); }, effect);
 }
 
 template <class Transfer, class Real, int D>

@@ -26,6 +26,7 @@ class ParticleSimulation : public Simulation {
   void set_time(double time) override { time_ = time; }
 
   FrameView view() override {
+    const auto start = std::chrono::steady_clock::now();
     FrameView out;
     out.time = time_;
     out.particles = count_;
@@ -42,6 +43,7 @@ class ParticleSimulation : public Simulation {
                       attribute_view<Real, D>(batches, "pscale", 1)};
     for (const Attribute* a : plan_->attributes)
       out.attributes.push_back(attribute_view<Real, D>(batches, a->name, a->components));
+    frame_seconds_ += seconds_since(start);
     return out;
   }
 
@@ -68,7 +70,39 @@ class ParticleSimulation : public Simulation {
   void timed(PassTimes::Pass pass, F&& f) {
     const auto start = std::chrono::steady_clock::now();
     f();
-    times_.seconds[pass] += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    times_.seconds[pass] += seconds_since(start);
+  }
+  static double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+  double seconds(PassTimes::Pass pass) const { return times_.seconds[pass]; }
+
+  /// What both paths have: particles, sorting, frames. `sort_bytes`: what the sorter holds.
+  std::vector<Cost> common_costs(std::size_t sort_bytes) const {
+    return {{"particles",
+             {},
+             {},
+             0,
+             column_bytes({Column::position, Column::mass, Column::volume}) + count_ * sizeof(std::uint32_t)},
+            {"sort", {}, "sort", seconds(PassTimes::sort), sort_bytes},
+            {"frame totals", {}, "frame", frame_seconds_, 0}};
+  }
+  std::size_t column_bytes(ColumnSet columns) const {
+    std::size_t sum = 0;
+    for (const auto& batch : batches_) sum += column_bytes(batch, columns);
+    return sum;
+  }
+  static std::size_t column_bytes(const Batch<Real, D>& batch, ColumnSet columns) {
+    return batch.particles.size() * sizeof(Real) *
+           static_cast<std::size_t>((batch.particles.columns() & columns).reals(D));
+  }
+  /// What the materials of the particles take; `material` seconds each.
+  void add_materials(std::span<const double> material, std::string_view passes,
+                     std::vector<Cost>& out) const {
+    for (std::size_t b = 0; b < batches_.size(); ++b)
+      out.push_back({plan_->batches[b].material, "material", passes, material[b],
+                     column_bytes(batches_[b], {Column::elastic_deformation, Column::plastic_deformation,
+                                                Column::stress})});
   }
 
   /// Takes over what the materials of a step answered, one report per batch.
@@ -179,6 +213,7 @@ class ParticleSimulation : public Simulation {
 
   FrameSteps steps_;
   PassTimes times_;
+  double frame_seconds_ = 0;
 };
 
 }  // namespace firn

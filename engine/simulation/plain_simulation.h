@@ -47,6 +47,23 @@ class PlainSimulation final : public ParticleSimulation<Real, D> {
   }
   void shorten(double) override {}  // each step puts its own forces on the grid
 
+  /// Effects of the grid are part of "grid".
+  std::vector<Cost> costs() const override {
+    std::vector<Cost> out = Base::common_costs(sorter_.bytes());
+    out.push_back({"transfer",
+                   {},
+                   "p2g, g2p",
+                   this->seconds(PassTimes::p2g) + this->seconds(PassTimes::g2p),
+                   Base::column_bytes({Column::velocity, Column::affine})});
+    out.push_back({"grid",
+                   {},
+                   "grid",
+                   this->seconds(PassTimes::grid),
+                   grid_.nodes.bytes() + grid_.before.bytes() + layout_.bytes()});
+    Base::add_materials(material_seconds_, "material", out);
+    return out;
+  }
+
   std::size_t bytes() const override {
     return this->table_bytes() + grid_.nodes.bytes() + grid_.before.bytes() + layout_.bytes() +
            sorter_.bytes();
@@ -55,10 +72,14 @@ class PlainSimulation final : public ParticleSimulation<Real, D> {
  private:
   void run_materials(Real dt) {
     reports_.clear();
-    for (std::size_t b = 0; b < batches_.size(); ++b)
+    material_seconds_.resize(batches_.size());
+    for (std::size_t b = 0; b < batches_.size(); ++b) {
+      const auto start = std::chrono::steady_clock::now();
       reports_.push_back(
           std::visit([&](const auto& model) { return material_pass(model, batches_[b].particles, dt); },
                      plan_->batches[b].law));
+      material_seconds_[b] += Base::seconds_since(start);
+    }
     this->take(reports_);
   }
 
@@ -66,6 +87,7 @@ class PlainSimulation final : public ParticleSimulation<Real, D> {
   GridNodes<Real, D> grid_;
   std::vector<StepEffect> effects_;
   std::vector<MaterialReport> reports_;
+  std::vector<double> material_seconds_;  // by batch
 };
 
 }  // namespace firn

@@ -4,7 +4,9 @@
 
 #include <array>
 #include <memory>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "engine/particles/frame_view.h"
 #include "engine/scene/plan.h"
@@ -17,6 +19,15 @@ struct PassTimes {
   enum Pass { sort, p2g, grid, g2p, material, count };
   static constexpr std::array<std::string_view, count> names{"sort", "p2g", "grid", "g2p", "material"};
   std::array<double, count> seconds{};
+};
+
+/// What one part of the simulation has cost since the start.
+struct Cost {
+  std::string part;  // "sort", "transfer", "gravity", ...; of a material or a collider its name in the scene
+  std::string_view kind;    // "material", "collider", or empty
+  std::string_view passes;  // where it is computed
+  double seconds;           // wall time; of parts of one pass by their share in blocks that were measured
+  std::size_t bytes;
 };
 
 /// What a frame's counters count; `capped`: particle updates on which a cap of the material model acted.
@@ -56,6 +67,7 @@ class Simulation {
   virtual std::size_t occupied_blocks() const = 0;
   virtual std::size_t bytes() const = 0;
   virtual const PassTimes& times() const = 0;
+  virtual std::vector<Cost> costs() const = 0;
 };
 
 /// `seeds`: one per body of the plan.

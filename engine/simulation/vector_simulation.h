@@ -4,9 +4,11 @@
 // between, at frames, the particle pass is split in two.
 #pragma once
 
+#include "engine/base/tick_clock.h"
 #include "engine/passes/grid_update.h"
 #include "engine/passes/outboxes.h"
 #include "engine/passes/sort.h"
+#include "engine/simulation/block_samples.h"
 #include "engine/simulation/particle_simulation.h"
 #include "engine/vector/kernel_tables.h"
 
@@ -30,7 +32,7 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
         lightest_ = std::min(lightest_, batch.particles.template view<Column::mass>().load(p));
     sort(ColumnSet::all(), std::nullopt);
     // The wave speed of the seeded state; what else it leaves is not used.
-    run_blocks(kernels_.begin, 0, 0);
+    run_blocks(PassTimes::p2g, kernels_.begin, 0, 0);
     take_reports();
   }
 
@@ -39,7 +41,7 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
     FIRN_CHECK(announced_ == 0 || announced_ == dt);
     if (announced_ == 0) {
       if (drift_ >= farthest) timed(PassTimes::sort, [&] { sort(ColumnSet::all(), std::nullopt); });
-      timed(PassTimes::p2g, [&] { run_blocks(kernels_.begin, 0, dt); });
+      run_blocks(PassTimes::p2g, kernels_.begin, 0, dt);
     }
     double reach = 0;  // m: no particle moves farther in this step
     timed(PassTimes::grid, [&] {
@@ -55,8 +57,7 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
       });
     // Particles that may have left the block's scratch cannot be scattered before they are sorted again.
     announced_ = drift_ + reach < farthest ? next : 0;
-    timed(PassTimes::g2p,
-          [&] { run_blocks(announced_ > 0 ? kernels_.fused : kernels_.finish, dt, announced_); });
+    run_blocks(PassTimes::g2p, announced_ > 0 ? kernels_.fused : kernels_.finish, dt, announced_);
     time_ += dt;
     Motion motion;
     for (const Motion& m : motions_) motion.join(m);
@@ -67,13 +68,48 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
 
   void shorten(double next) override {
     if (announced_ == 0) return;
-    timed(PassTimes::p2g, [&] { run_blocks(kernels_.adjust, 0, next - announced_); });
+    run_blocks(PassTimes::p2g, kernels_.adjust, 0, next - announced_);
     announced_ = next;
   }
 
   FrameView view() override {
     FIRN_CHECK(announced_ == 0);  // v and C of particles are not kept in a fused step
     return Base::view();
+  }
+
+  std::vector<Cost> costs() const override {
+    std::vector<Cost> out = Base::common_costs(sorter_.bytes());
+    double transfer = 0;
+    std::vector<double> material(batches_.size());
+    for (const PassTimes::Pass pass : {PassTimes::p2g, PassTimes::g2p}) {
+      const std::vector<double> shares = samples_[pass].shares();
+      for (std::size_t k = 0; k < shares.size(); ++k)
+        (k % kTaskParts == kMaterialPart ? material[k / kTaskParts] : transfer) +=
+            shares[k] * this->seconds(pass);
+    }
+    out.push_back({"transfer",
+                   {},
+                   "p2g, g2p",
+                   transfer,
+                   Base::column_bytes({Column::velocity, Column::affine}) + outboxes_.bytes()});
+    Base::add_materials(material, "p2g, g2p", out);
+
+    // The parts of the grid update: what every scene needs, then the effects in their order.
+    const std::vector<double> shares = grid_samples_.shares();
+    const auto grid = [&](std::size_t part) {
+      return part < shares.size() ? shares[part] * this->seconds(PassTimes::grid) : 0;
+    };
+    std::size_t part = 0;
+    out.push_back({"grid",
+                   {},
+                   "grid",
+                   grid(part++),
+                   grid_.bytes() + other_grid_.bytes() + layout_.bytes() + old_layout_.bytes()});
+    if (plan_->effects.gravity) out.push_back({"gravity", {}, "grid", grid(part++), 0});
+    for (const Collider& c : plan_->effects.colliders)
+      out.push_back({c.name, "collider", "grid", grid(part++), 0});
+    if (plan_->effects.domain) out.push_back({"domain", {}, "grid", grid(part++), 0});
+    return out;
   }
 
   std::size_t bytes() const override {
@@ -113,7 +149,8 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
       const ColumnPointers<Real> columns = batches_[k].particles.pointers();
       for (std::size_t b = 0; b < layout_.occupied(); ++b) {
         const auto [first, last] = batches_[k].range(b);
-        tasks_[b * n + k] = {columns, first, last, updates_[law.index()], model, &block_reports_[b * n + k]};
+        tasks_[b * n + k] = {columns, first, last, updates_[law.index()], model, &block_reports_[b * n + k],
+                             nullptr};
       }
     }
   }
@@ -135,27 +172,38 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
   /// A bound on the velocity components of all particles in this step, m/s; not finite when a node's is not.
   double update_grid(double dt) {
     grid_.resize(layout_);
+    grid_samples_.begin(layout_.size(), 1 + effects_.size());
     const double h = plan_->cell_size();
-    return tbb::parallel_reduce(
-               tbb::blocked_range<std::size_t>(0, layout_.size(), 4), SpeedBound{},
-               [&](const tbb::blocked_range<std::size_t>& range, SpeedBound bound) {
-                 OutboxPointers<Real, D> from, next = sources(range.begin());
-                 for (std::size_t b = range.begin(); b < range.end(); ++b) {
-                   from = next;
-                   next = sources(std::min(b + 1, layout_.size() - 1));
-                   Real* const nodes = &grid_.block(b)[0].v[0];
-                   if (!grid_kernels_.collect(from, next, nodes)) continue;
-                   BlockNodes<Real, D> block{grid_.block(b), {}, layout_.coord(b), h};
-                   apply_effects(block, dt, effects_);
-                   bound.join(grid_kernels_.speed_bound(nodes, lightest_));
-                 }
-                 return bound;
-               },
-               [](SpeedBound a, const SpeedBound& b) {
-                 a.join(b);
-                 return a;
-               })
-        .value();
+    const double bound =
+        tbb::parallel_reduce(
+            tbb::blocked_range<std::size_t>(0, layout_.size(), 4), SpeedBound{},
+            [&](const tbb::blocked_range<std::size_t>& range, SpeedBound bound) {
+              OutboxPointers<Real, D> from, next = sources(range.begin());
+              for (std::size_t b = range.begin(); b < range.end(); ++b) {
+                from = next;
+                next = sources(std::min(b + 1, layout_.size() - 1));
+                Real* const nodes = &grid_.block(b)[0].v[0];
+                TickClock clock(grid_samples_.of(b));
+                const bool used = grid_kernels_.collect(from, next, nodes);
+                clock.lap(0);
+                if (!used) continue;
+                BlockNodes<Real, D> block{grid_.block(b), {}, layout_.coord(b), h};
+                for (std::size_t e = 0; e < effects_.size(); ++e) {
+                  std::visit([&](const auto& effect) { effect.apply(block, dt); }, effects_[e]);
+                  clock.lap(1 + e);
+                }
+                bound.join(grid_kernels_.speed_bound(nodes, lightest_));
+                clock.lap(0);
+              }
+              return bound;
+            },
+            [](SpeedBound a, const SpeedBound& b) {
+              a.join(b);
+              return a;
+            })
+            .value();
+    grid_samples_.end();
+    return bound;
   }
 
   OutboxPointers<Real, D> sources(std::size_t b) {
@@ -166,10 +214,15 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
     return out;
   }
 
-  void run_blocks(Kernel kernel, double dt, double next) {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, layout_.occupied(), 1), [&](const auto& range) {
-      for (std::size_t b = range.begin(); b < range.end(); ++b) run_block(kernel, b, dt, next);
+  void run_blocks(PassTimes::Pass pass, Kernel kernel, double dt, double next) {
+    samples_[pass].begin(layout_.occupied(), kTaskParts * batches_.size());
+    timed(pass, [&] {
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, layout_.occupied(), 1), [&](const auto& range) {
+        for (std::size_t b = range.begin(); b < range.end(); ++b)
+          run_block(kernel, b, dt, next, samples_[pass].of(b));
+      });
     });
+    samples_[pass].end();
   }
 
   std::array<const Real*, kNeighbours<D>> velocities(std::size_t b) {
@@ -179,9 +232,12 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
     return out;
   }
 
-  void run_block(Kernel kernel, std::size_t b, double dt, double next) {
+  void run_block(Kernel kernel, std::size_t b, double dt, double next, std::uint64_t* ticks) {
     const std::size_t first = b * batches_.size();
-    for (std::size_t k = 0; k < batches_.size(); ++k) block_reports_[first + k] = {};
+    for (std::size_t k = 0; k < batches_.size(); ++k) {
+      block_reports_[first + k] = {};
+      tasks_[first + k].ticks = ticks == nullptr ? nullptr : ticks + k * kTaskParts;
+    }
     BlockTask<Real, D> task{};
     task.batches = {tasks_.data() + first, batches_.size()};
     task.block = layout_.coord(b);
@@ -215,6 +271,8 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
   std::vector<StepEffect> effects_;
   std::vector<MaterialReport> reports_, block_reports_;  // block_reports_: block by block, then by batch
   std::vector<Motion> motions_;
+  std::array<BlockSamples, PassTimes::count> samples_;
+  BlockSamples grid_samples_;
   Real lightest_ = std::numeric_limits<Real>::max();  // kg, of the particles
   double announced_ = 0;  // s; the length of the step whose forces are in the outboxes, or 0
 };

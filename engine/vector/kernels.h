@@ -33,10 +33,8 @@ template <class Real>
 using MaterialKernel = void (*)(const void* model, const ColumnPointers<Real>& tile, Real dt, Real* tau,
                                 MaterialReport& report);
 
-/// Seconds of one block by stage.
-struct StageTimes {
-  double gather = 0, material = 0, scatter = 0;
-};
+/// The parts of a batch's work that are told apart when ticks are counted.
+enum TaskPart : std::size_t { kTransferPart, kMaterialPart, kTaskParts };
 
 /// The particles of one material in the block.
 template <class Real>
@@ -46,6 +44,7 @@ struct BatchTask {
   MaterialKernel<Real> update;
   const void* model;
   MaterialReport* report;
+  std::uint64_t* ticks;  // kTaskParts of them; null: not counted
 };
 
 template <class Real, int D>
@@ -59,7 +58,6 @@ struct BlockTask {
   Real dt;                                                  // s, of the step that ends
   Real next;  // s, of the step that begins: its forces are scattered
   Motion motion;
-  StageTimes* times;  // null: not taken
 };
 
 /// The kernels of one transfer scheme.

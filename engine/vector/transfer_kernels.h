@@ -3,8 +3,7 @@
 // lanes hold sixteen particles for what is per particle, rows hold one particle's nodes for what is per node.
 #pragma once
 
-#include <chrono>
-
+#include "engine/base/tick_clock.h"
 #include "engine/passes/transfer.h"
 #include "engine/vector/row_kernels.h"
 
@@ -205,24 +204,7 @@ class PartialTile {
   alignas(64) Real values_[kUsed.reals(D) * kTileSize];
 };
 
-/// Seconds by stage, or nothing.
-template <bool on>
-struct StageClock {
-  StageTimes* times;
-  std::chrono::steady_clock::time_point last{};
-  void start() {
-    if constexpr (on) last = std::chrono::steady_clock::now();
-  }
-  void lap(double StageTimes::*stage) {
-    if constexpr (on) {
-      const auto now = std::chrono::steady_clock::now();
-      times->*stage += std::chrono::duration<double>(now - last).count();
-      last = now;
-    }
-  }
-};
-
-template <class Real, int D, class Transfer, Stages stages, bool timed>
+template <class Real, int D, class Transfer, Stages stages>
 HWY_INLINE void run_tile(const BlockTask<Real, D>& task, const BatchTask<Real>& batch,
                          const ColumnPointers<Real>& columns, int n, const Real* in, Real* out,
                          TileWork<Real, D, Transfer>& work, LaneMotion<Real>& motion) {
@@ -230,14 +212,13 @@ HWY_INLINE void run_tile(const BlockTask<Real, D>& task, const BatchTask<Real>& 
   constexpr bool gathers = stages == Stages::fused || stages == Stages::finish;
   constexpr bool scatters = stages != Stages::finish;
   const TileView<Real, D> tile{columns};
-  StageClock<timed> clock{task.times};
-  clock.start();
+  TickClock clock(batch.ticks);
   if constexpr (gathers) {
     gather_tile<Real, D, Transfer>(task, tile, n, in, work, motion);
-    clock.lap(&StageTimes::gather);
+    clock.lap(kTransferPart);
   }
   batch.update(batch.model, columns, gathers ? task.dt : Real(0), work.tau[0], *batch.report);
-  clock.lap(&StageTimes::material);
+  clock.lap(kMaterialPart);
   if constexpr (stages == Stages::begin)
     for (int at = 0; at < kTileSize; at += kLanes<Real>) {
       for (int c = 0; c < D; ++c) L::load(tile.at(Column::velocity, c) + at).store(work.v[c] + at);
@@ -255,7 +236,7 @@ HWY_INLINE void run_tile(const BlockTask<Real, D>& task, const BatchTask<Real>& 
     }
   if constexpr (scatters) {
     scatter_tile<Real, D, Transfer, stages != Stages::adjust>(task, tile, n, work, out);
-    clock.lap(&StageTimes::scatter);
+    clock.lap(kTransferPart);
   }
 }
 
@@ -332,7 +313,7 @@ class Prefetcher {
   int line_ = 0;
 };
 
-template <class Real, int D, class Transfer, Stages stages, bool timed>
+template <class Real, int D, class Transfer, Stages stages>
 HWY_INLINE void run_tiles(BlockTask<Real, D>& task, const Real* in, Real* out) {
   TileWork<Real, D, Transfer> work;
   LaneMotion<Real> motion;
@@ -351,12 +332,11 @@ HWY_INLINE void run_tiles(BlockTask<Real, D>& task, const Real* in, Real* out) {
       prefetch_next<Real, D, stages>(columns);
       prefetcher.fetch_some();
       if (last - first == kTile) {
-        run_tile<Real, D, Transfer, stages, timed>(task, batch, columns, kTileSize, in, out, work, motion);
+        run_tile<Real, D, Transfer, stages>(task, batch, columns, kTileSize, in, out, work, motion);
       } else {
         PartialTile<Real, D, stages> part(columns, static_cast<int>(first - tile_first),
                                           static_cast<int>(last - tile_first));
-        run_tile<Real, D, Transfer, stages, timed>(task, batch, part.columns(), part.count(), in, out, work,
-                                                   motion);
+        run_tile<Real, D, Transfer, stages>(task, batch, part.columns(), part.count(), in, out, work, motion);
         part.write_back();
       }
       first = last;
@@ -379,10 +359,7 @@ void run_block(BlockTask<Real, D>& task) {
     copy_numbers<kReals>(task.outbox, out);
   else if constexpr (stages != Stages::finish)
     fill_zero<kReals>(out);
-  if (task.times != nullptr)
-    run_tiles<Real, D, Transfer, stages, true>(task, in, out);
-  else
-    run_tiles<Real, D, Transfer, stages, false>(task, in, out);
+  run_tiles<Real, D, Transfer, stages>(task, in, out);
   if constexpr (stages != Stages::finish) copy_numbers<kReals>(out, task.outbox);
 }
 

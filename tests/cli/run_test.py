@@ -6,7 +6,7 @@ import pty
 import re
 import subprocess
 
-from firn_cli import BLOCK, SNOW, FirnTest, programs, diagnostics, frame_name, hashes, main, run_record, start
+from firn_cli import BLOCK, SCENES, SNOW, FirnTest, programs, diagnostics, frame_name, hashes, main, run_record, start
 
 COLUMNS = ("frame time steps dt_min dt_max particles mass momentum_x momentum_y momentum_z angular_x angular_y "
            "angular_z kinetic elastic gravity dissipated total max_speed min_J max_J").split()
@@ -114,6 +114,35 @@ class Reporting(FirnTest):
         self.assertTrue(all(part >= 0 for part in parts))
         self.assertLessEqual(sum(parts), seconds["total"])
         self.assertTrue(0 < seconds["output"] <= seconds["total"])
+
+    def test_every_part_of_the_scene_has_its_price_and_no_other_part(self):
+        out = self.path("out")
+        done = self.firn("run", os.path.join(SCENES, "snow_on_wedge.toml"), "--out", out, "--frames", ":3")
+        record = run_record(out)
+        costs = {cost["part"]: cost for cost in record["costs"]}
+        self.assertEqual(set(costs), {"particles", "sort", "transfer", "snow", "grid", "gravity", "wedge", "ground",
+                                      "frame totals", "caches"})
+        self.assertEqual(costs["snow"]["effects"], ["elasticity", "decomposition", "plasticity", "hardening"])
+        self.assertEqual(costs["wedge"]["kind"], "collider")
+        self.assertAlmostEqual(sum(cost["share"] for cost in costs.values()), 1, places=9)
+        self.assertEqual(sum(cost["bytes"] for cost in costs.values()), record["bytes"])
+        self.assertGreater(costs["snow"]["seconds"], 0)
+        # The parts of the passes are all of their time.
+        passes = sum(record["seconds"]["passes"].values())
+        others = sum(costs[part]["seconds"] for part in ("frame totals", "caches"))
+        self.assertAlmostEqual(sum(cost["seconds"] for cost in costs.values()) - others, passes, places=9)
+        self.assertRegex(done.stderr.splitlines()[-1],
+                         r"^cost: .*snow \d+ % \(elasticity, decomposition, plasticity, hardening\), .*collider wedge \d")
+
+    def test_what_the_scene_does_not_name_has_no_price(self):
+        out = self.path("out")
+        self.firn("run", os.path.join(SCENES, "elastic_cubes.toml"), "--out", out, "--frames", ":2")
+        record = run_record(out)
+        parts = {cost["part"] for cost in record["costs"] if "kind" not in cost}
+        self.assertEqual(parts, {"particles", "sort", "transfer", "grid", "frame totals", "caches"})
+        for cost in record["costs"]:
+            if cost.get("kind") == "material":
+                self.assertEqual(cost["effects"], ["elasticity"])
 
     def test_a_frame_is_reported_when_it_is_on_disk(self):
         out = self.path("out")

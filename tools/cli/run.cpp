@@ -19,6 +19,7 @@
 #include "engine/scene/reader.h"
 #include "engine/scene/seed_check.h"
 #include "engine/simulation/run.h"
+#include "tools/cli/costs.h"
 #include "tools/cli/memory.h"
 #include "tools/cli/plan.h"
 #include "tools/cli/run_output.h"
@@ -87,8 +88,8 @@ struct RunTimes {
 
 /// `output` after its finish().
 nlohmann::json run_record(const Plan& plan, const Estimate& e, const Simulation& simulation,
-                          const RunOutput& output, const RunTimes& times, int threads,
-                          std::string_view state) {
+                                  const RunOutput& output, const RunTimes& times, int threads,
+                                  std::string_view state) {
   nlohmann::json passes;
   double stepping = 0;
   for (int p = 0; p < PassTimes::count; ++p) {
@@ -115,6 +116,7 @@ nlohmann::json run_record(const Plan& plan, const Estimate& e, const Simulation&
             {"passes", passes}}},
           {"particle_updates_per_second", stepping > 0 ? updates / stepping : 0},
           {"bytes", simulation.bytes()},
+          {"costs", costs_json(plan, simulation, output.steps(), writing)},
           {"frames", output.frames()}};
 }
 
@@ -185,6 +187,7 @@ int run_scene(const RunOptions& options) {
       grouped(static_cast<double>(simulation->particles())), grouped(static_cast<double>(output.steps())),
       duration_text(seconds_since(times.start)), summary["particle_updates_per_second"].get<double>() / 1e6,
       bytes_text(static_cast<double>(output.written_bytes())), folder.path().string());
+  if (output.steps() > 0) std::cerr << "cost: " << costs_line(summary["costs"]) << '\n';
   return finished ? 0 : 128 + g_signal;
 }
 
