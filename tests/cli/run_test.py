@@ -67,11 +67,12 @@ class Reporting(FirnTest):
     def test_progress_is_plain_lines_on_standard_error_when_it_is_no_terminal(self):
         done = self.firn("run", self.scene)
         self.assertEqual(done.stdout, "")
-        *frames, last = done.stderr.splitlines()
+        *frames, last, cost = done.stderr.splitlines()
         self.assertEqual([line.split("  ")[0] for line in frames], [f"frame {k}/5" for k in range(1, 6)])
         for line in frames[1:]:
             self.assertRegex(line, r"  dt \S+ s  \d+ steps  [\d.]+ M particles/s  .*(left|done in) ?.*written$")
         self.assertTrue(last.startswith("finished: 5 frames, "), last)
+        self.assertTrue(cost.startswith("cost: "), cost)
         self.assertNotRegex(done.stderr, "[\r\x1b]")
 
     def test_progress_is_one_line_drawn_over_on_a_terminal(self):
