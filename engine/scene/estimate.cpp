@@ -33,8 +33,9 @@ double wave_speed_at_rest(const BatchPlan& batch, int dimension) {
   }
 }
 
-// Blocks whose centre is near enough to the body, counted on a lattice that is coarsened for huge bodies.
-double count_blocks(const Shape& shape, int dimension, double h) {
+// Blocks with a centre less than `reach` block edges outside the body, counted on a lattice that is coarsened
+// for huge bodies.
+double count_blocks(const Shape& shape, int dimension, double h, double reach) {
   const Bounds bounds = shape.bounds();
   if (bounds.empty()) return 0;
   double edge = kBlockEdge * h;
@@ -44,8 +45,7 @@ double count_blocks(const Shape& shape, int dimension, double h) {
     return n;
   };
   while (lattice_points() > 1e6) edge *= 2;
-  // The block itself, and the neighbours its particles' kernels reach.
-  const double near = (0.5 * std::sqrt(dimension) + 0.5) * edge + 0.5 * kBlockEdge * h;
+  const double near = (reach - 0.5) * edge + 0.5 * kBlockEdge * h;
   std::vector<Vec3> centres;
   std::array<int, 3> n{1, 1, 1};
   for (int d = 0; d < dimension; ++d)
@@ -65,6 +65,15 @@ double count_blocks(const Shape& shape, int dimension, double h) {
   return static_cast<double>(blocks) * std::pow(edge / (kBlockEdge * h), dimension);
 }
 
+/// Of the body's blocks, those with particles, and those that their kernels reach besides.
+struct BlockCounts {
+  double occupied, all;
+};
+BlockCounts count_blocks(const Shape& shape, int dimension, double h) {
+  const double half = 0.5 * std::sqrt(dimension);
+  return {count_blocks(shape, dimension, h, 0.5 * half + 0.25), count_blocks(shape, dimension, h, half + 1)};
+}
+
 // Bytes a point takes in a frame: float P and v, 64-bit id, compressed; others by their components.
 constexpr double kPointBytes = 24;
 constexpr double kAttributeComponentBytes = 3.6;
@@ -77,26 +86,45 @@ constexpr double writing_bytes(double components) {
   return 3 * (kAlways + sizeof(float) * components) + 60;
 }
 
+double plain_grid_bytes(double blocks, const SimulationDescription& s, double real) {
+  const double reals = s.dimension + 1 + (s.transfer == Transfer::flip ? s.dimension : 0);
+  return blocks * power(kBlockEdge, s.dimension) * reals * real;
+}
+
+// Two grids, of which one is filled while the other is read, and an outbox for each block with particles.
+double vector_grid_bytes(double blocks, double occupied, int dimension, double real) {
+  return (2 * blocks * power(kBlockEdge, dimension) + occupied * power(2 * kBlockEdge, dimension)) *
+         (kNodeReals * real);
+}
+
 }  // namespace
 
-PlainCost plain_cost(int dimension, Precision precision) {
-  const double wide = precision == Precision::double_ ? 1.1 : 1.0;
-  switch (dimension) {
-    case 1:
-      return {12 * wide, 6 * wide, 17 * wide};
-    case 2:
-      return {95 * wide, 12 * wide, 122 * wide};
-    default:
-      return {480 * wide, 25 * wide, 455 * wide};
+StepCost step_cost(const PathPlan& path, int dimension, Precision precision) {
+  const bool wide = precision == Precision::double_;
+  if (!path.isa) {
+    const double slower = wide ? 1.1 : 1.0;
+    switch (dimension) {
+      case 1:
+        return {12 * slower, 6 * slower, 17 * slower};
+      case 2:
+        return {95 * slower, 12 * slower, 122 * slower};
+      default:
+        return {480 * slower, 25 * slower, 455 * slower};
+    }
   }
+  // Registers of half the width take that much longer for the same lanes; the transfers' rows less so.
+  const double narrow = *path.isa == Isa::avx512 ? 1 : *path.isa == Isa::avx2 ? 2 : 4;
+  const double lanes = narrow * (wide ? 2 : 1), rows = std::sqrt(narrow) * (wide ? 1.5 : 1);
+  if (dimension == 2) return {16 * rows, 1 * lanes, 5 * lanes};
+  return {35 * rows, 2.5 * lanes, 22 * lanes};
 }
 
 Estimate estimate(const Plan& plan) {
   const SimulationDescription& s = plan.scene.simulation;
   Estimate e;
-  const PlainCost cost = plain_cost(s.dimension, s.precision);
+  const StepCost cost = step_cost(plan.path, s.dimension, s.precision);
   const double real = s.precision == Precision::double_ ? 8 : 4;
-  double step_ns = 0, widest = 0;
+  double step_ns = 0, widest = 0, occupied = 0;
   for (std::size_t b = 0; b < plan.bodies.size(); ++b) {
     const BodyDescription& body = plan.scene.bodies[b];
     const BatchPlan& batch = plan.batches[plan.bodies[b].batch];
@@ -108,7 +136,11 @@ Estimate estimate(const Plan& plan) {
     widest = std::max(widest, n * s.dimension * s.dimension * real);
     const bool decomposes = find_model(batch.model)->decomposition != "none";
     step_ns += n * (cost.transfers + (decomposes ? cost.decomposition : cost.plain_energy));
-    if (plan.bodies[b].shape) e.blocks += count_blocks(*plan.bodies[b].shape, s.dimension, s.cell_size);
+    if (plan.bodies[b].shape) {
+      const BlockCounts blocks = count_blocks(*plan.bodies[b].shape, s.dimension, s.cell_size);
+      e.blocks += blocks.all;
+      occupied += blocks.occupied;
+    }
     e.wave_speed = std::max(e.wave_speed, wave_speed_at_rest(batch, s.dimension));
     double speed = body.velocity.norm();
     if (plan.bodies[b].shape) {
@@ -118,11 +150,13 @@ Estimate estimate(const Plan& plan) {
     e.speed = std::max(e.speed, speed);
   }
   for (const Collider& c : plan.effects.colliders) e.speed = std::max(e.speed, c.motion.max_speed(0));
-  const double node_bytes = (s.dimension + 1 + (s.transfer == Transfer::flip ? s.dimension : 0)) * real;
-  e.grid_bytes = e.blocks * power(kBlockEdge, s.dimension) * node_bytes;
+  e.grid_bytes = plan.path.isa ? vector_grid_bytes(e.blocks, occupied, s.dimension, real)
+                               : plain_grid_bytes(e.blocks, s, real);
   double components = 0;
   for (const Attribute* a : plan.attributes) components += a->components;
-  const double sorting = 20 * e.total_particles + widest;
+  // The vectorised path sorts into the affine velocities' memory, which has nothing to keep at that time.
+  const double sorting =
+      plan.path.isa && s.transfer != Transfer::pic ? 12 * e.total_particles : 20 * e.total_particles + widest;
   const double writing = e.total_particles * writing_bytes(components);
   // The simulation goes on, and sorts, while a frame is written; seeding takes less and is over by then.
   e.peak_bytes = e.particle_bytes + e.grid_bytes + sorting + writing;

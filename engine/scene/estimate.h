@@ -22,13 +22,14 @@ struct Estimate {
   double core_seconds = 0;  // of all steps on one core, from the costs below
 };
 
-/// Core nanoseconds per particle and step of the plain path, by what the material has to compute: the passes'
-/// seconds in run.json times the cores. Measured on both cores of an AMD EPYC (Zen 4) at 2.6 GHz with
-/// scenes/snowball.toml, scenes/elastic_cubes.toml and disks of the same materials; other machines differ.
-struct PlainCost {
+/// Core nanoseconds per particle and step, by what the material has to compute: the passes' seconds in
+/// run.json times the cores. Measured on an AMD EPYC (Zen 4), the plain path with scenes/snowball.toml,
+/// scenes/elastic_cubes.toml and disks of the same materials, the vectorised one by `firn bench`; other
+/// machines differ.
+struct StepCost {
   double transfers = 0, plain_energy = 0, decomposition = 0;
 };
-PlainCost plain_cost(int dimension, Precision precision);
+StepCost step_cost(const PathPlan& path, int dimension, Precision precision);
 
 Estimate estimate(const Plan& plan);
 
