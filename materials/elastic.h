@@ -2,8 +2,7 @@
 #pragma once
 
 #include "engine/math/svd.h"
-#include "materials/material_point.h"
-#include "materials/principal.h"
+#include "materials/near_rest.h"
 
 namespace firn {
 
@@ -24,10 +23,14 @@ struct Elastic {
     if constexpr (DirectEnergy<Energy>) {
       const auto direct = Energy::direct_response(p.F_E, m);
       return {direct.tau, direct.wave_modulus, L(0), direct.capped};
+    } else if constexpr (kHasNearRest<Energy, L, D>) {
+      const NearRotation<L> near(p.F_E);
+      const LaneMask<L> quick = near.valid();
+      if (!any(quick)) return general_update(p);
+      const Response<L, D> out = response_near_rest<Energy>(p.F_E, near, m);
+      return any(!quick) ? chosen(quick, out, general_update(p)) : out;
     } else {
-      const Svd<L, D> f = svd_any_order(p.F_E);
-      return {compose(f.U, Energy::kirchhoff(f.s, m), f.U), Energy::wave_modulus(f.s, m), L(0),
-              Energy::capped(f.s)};
+      return general_update(p);
     }
   }
 
@@ -39,6 +42,15 @@ struct Elastic {
     } else {
       return Energy::density(svd_any_order(p.F_E).s, m);
     }
+  }
+
+  /// `update` by singular values, wherever the point is.
+  template <class L, int D>
+  Response<L, D> general_update(ElasticPoint<L, D>& p) const {
+    const Lame<L> m = moduli.as<L>();
+    const Svd<L, D> f = svd_any_order(p.F_E);
+    return {compose(f.U, Energy::kirchhoff(f.s, m), f.U), Energy::wave_modulus(f.s, m), L(0),
+            Energy::capped(f.s)};
   }
 
   /// The moduli this point has now.

@@ -12,8 +12,7 @@
 #pragma once
 
 #include "engine/math/svd.h"
-#include "materials/material_point.h"
-#include "materials/principal.h"
+#include "materials/near_rest.h"
 
 namespace firn {
 
@@ -33,6 +32,29 @@ struct ElastoPlastic {
 
   template <class L, int D>
   Response<L, D> update(PlasticPoint<L, D>& p, L) const {
+    if constexpr (kHasNearRest<Energy, L, D>) {
+      const NearRotation<L> near(p.F_E);
+      const LaneMask<L> elastic = near.valid() & yield.holds_squares(near.least_square, near.largest_square);
+      if (!any(elastic)) return project(p);
+      const auto hardened = hardening.evaluate(determinant(p.F_P));
+      const Lame<L> rest = moduli.as<L>();
+      Response<L, D> out = response_near_rest<Energy>(p.F_E, near, hardened.factor * rest);
+      out.wave_modulus = max(out.wave_modulus, least_wave_modulus(rest));
+      out.capped = hardened.capped;
+      if (!any(!elastic)) return out;
+      const PlasticPoint<L, D> before = p;
+      out = chosen(elastic, out, project(p));
+      p.F_E = chosen(elastic, before.F_E, p.F_E);
+      p.F_P = chosen(elastic, before.F_P, p.F_P);
+      return out;
+    } else {
+      return project(p);
+    }
+  }
+
+  /// `update` by singular values, wherever the point is.
+  template <class L, int D>
+  Response<L, D> project(PlasticPoint<L, D>& p) const {
     const Lame<L> rest = moduli.as<L>();
     const Svd<L, D> f = svd_any_order(p.F_E);
     const Vector<L, D> s = yield.project(f.s);
@@ -55,10 +77,15 @@ struct ElastoPlastic {
     }
     const Lame<L> m = hardened.factor * rest;
     out.tau = compose(f.U, Energy::kirchhoff(s, m), f.U);
-    // Moduli that faded to nothing still leave a time step: c stays above a thousandth of that at rest.
-    out.wave_modulus = max(Energy::wave_modulus(s, m), L(1e-6) * rest.p_wave());
+    out.wave_modulus = max(Energy::wave_modulus(s, m), least_wave_modulus(rest));
     out.capped = max(hardened.capped, Energy::capped(s));
     return out;
+  }
+
+  /// Moduli that faded to nothing still leave a time step: c stays above a thousandth of that at rest.
+  template <class L>
+  static L least_wave_modulus(const Lame<L>& rest) {
+    return L(1e-6) * rest.p_wave();
   }
 
   template <class L, int D>

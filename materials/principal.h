@@ -88,6 +88,14 @@ concept DirectEnergy = PrincipalEnergy<E> && requires(const Matrix<double, 3>& F
   {E::direct_response(F, m)};
 };
 
+/// An energy whose stress also follows from F and the rotation of its polar decomposition.
+template <class E>
+concept RotationEnergy = PrincipalEnergy<E> &&
+    requires(const Matrix<double, 3>& F, double J, const Lame<double>& m) {
+  { E::kirchhoff(F, F, J, m) } -> std::same_as<Matrix<double, 3>>;
+  { E::wave_modulus(J, J, m) } -> std::same_as<double>;  // from a bound on s_k^2, and J
+};
+
 /// A yield set in the singular values; it names the energies it is valid with.
 template <class Y, class E>
 concept YieldFor = Y::template valid_with<E>&& requires(const Y& y, const Vector<double, 3>& s) {

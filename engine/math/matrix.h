@@ -187,4 +187,13 @@ constexpr Matrix<L, D> inverse(const Matrix<L, D>& a) {
   return (L(1) / determinant(a)) * transpose(cofactor(a));
 }
 
+/// a where the mask holds, else b.
+template <class L, int D>
+Matrix<L, D> chosen(const LaneMask<L>& mask, const Matrix<L, D>& a, const Matrix<L, D>& b) {
+  Matrix<L, D> out;
+  for (int i = 0; i < D; ++i)
+    for (int j = 0; j < D; ++j) out(i, j) = select(mask, a(i, j), b(i, j));
+  return out;
+}
+
 }  // namespace firn

@@ -207,14 +207,6 @@ struct Gram {  // F^T F and its eigenvectors, rotated towards a diagonal
   }
 };
 
-template <class L, int D>
-Matrix<L, D> chosen(const LaneMask<L>& mask, const Matrix<L, D>& a, const Matrix<L, D>& b) {
-  Matrix<L, D> out;
-  for (int i = 0; i < D; ++i)
-    for (int j = 0; j < D; ++j) out(i, j) = select(mask, a(i, j), b(i, j));
-  return out;
-}
-
 }  // namespace svd_detail
 
 /// The same with the singular values in any order, which isotropic functions do not care about: less than

@@ -66,7 +66,7 @@ HWY_INLINE bool to_velocity(Real* nodes) {
     const L divisor = select(q[D] > L(0), q[D], L(1));
     for (int d = 0; d < D; ++d) q[d] = q[d] / divisor;
     heaviest = max(q[D], heaviest);
-    store_quads<Real>(q[0], q[1], q[2], q[3], nodes);
+    store_quads(q[0], q[1], q[2], q[3], nodes);
   }
   return largest(heaviest) > Real(0);
 }

@@ -24,7 +24,7 @@ HWY_INLINE void gather_rows(const TileStencil<Real, D, gradient>& stencil, const
   using R = Row<Real>;
   using Out = Records<D, moments, gradient>;
   constexpr int kLine = kScratchEdge * kQuad;
-  const int at = particle * kQuad;
+  const int at = quad_place<Real>(particle) * kQuad;
   const Real* first = nodes + stencil.first[particle];
   const auto weight = [&](int d, int n) HWY_ATTR { return R::all(stencil.w[d][n][particle]); };
   const auto slope = [&](int d, int n) HWY_ATTR { return R::all(stencil.dw[d][n][particle]); };
@@ -80,7 +80,7 @@ HWY_INLINE void scatter_rows(const TileStencil<Real, D, gradient>& stencil, cons
   using R = Row<Real>;
   using In = Records<D, moments, gradient>;
   constexpr int kLine = kScratchEdge * kQuad;
-  const int at = particle * kQuad;
+  const int at = quad_place<Real>(particle) * kQuad;
   Real* first = nodes + stencil.first[particle];
   const auto weight = [&](int d, int n) HWY_ATTR { return R::all(stencil.w[d][n][particle]); };
   const auto slope = [&](int d, int n) HWY_ATTR { return R::all(stencil.dw[d][n][particle]); };

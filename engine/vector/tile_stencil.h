@@ -15,18 +15,49 @@ inline constexpr int kLanes = Lane<Real>::kLanes;
 inline constexpr int kTileSize = static_cast<int>(kTile);
 inline constexpr int kScratchEdge = 2 * kBlockEdge;
 
-/// Particle after particle, four numbers each.
+/// A quad for each particle, in the order that takes the fewest shuffles from lanes (quad_place).
 template <class Real>
 using Quads = Real[kTileSize * kQuad];
 
+/// Which quad is particle p's. Within blocks of 128 bits, where floats are transposed, all of a register's
+/// blocks go side by side: first the registers' particles 0, 4, 8, 12, then 1, 5, ...
 template <class Real>
-HWY_INLINE void store_quads(const Lane<Real>& a, const Lane<Real>& b, const Lane<Real>& c,
-                            const Lane<Real>& d, Real* out) {
-  hn::StoreInterleaved4(a.v[0], b.v[0], c.v[0], d.v[0], typename Lane<Real>::Tag(), out);
+HWY_INLINE constexpr int quad_place(int p) {
+  constexpr int kBlocks = kLanes<Real> / 4;
+  if constexpr (sizeof(Real) == 8 || kBlocks == 1) return p;
+  return p / kLanes<Real> * kLanes<Real> + p % 4 * kBlocks + p / 4 % kBlocks;
 }
-template <class Real>
-HWY_INLINE void load_quads(const Real* in, Lane<Real> (&out)[4]) {
-  hn::LoadInterleaved4(typename Lane<Real>::Tag(), in, out[0].v[0], out[1].v[0], out[2].v[0], out[3].v[0]);
+
+HWY_INLINE void store_quads(const Lane<float>& a, const Lane<float>& b, const Lane<float>& c,
+                            const Lane<float>& d, float* out) {
+  const Lane<float>::Tag tag;
+  const auto ac = hn::InterleaveLower(tag, a.v[0], c.v[0]), bd = hn::InterleaveLower(tag, b.v[0], d.v[0]);
+  const auto ac2 = hn::InterleaveUpper(tag, a.v[0], c.v[0]), bd2 = hn::InterleaveUpper(tag, b.v[0], d.v[0]);
+  hn::Store(hn::InterleaveLower(tag, ac, bd), tag, out);
+  hn::Store(hn::InterleaveUpper(tag, ac, bd), tag, out + kLanes<float>);
+  hn::Store(hn::InterleaveLower(tag, ac2, bd2), tag, out + 2 * kLanes<float>);
+  hn::Store(hn::InterleaveUpper(tag, ac2, bd2), tag, out + 3 * kLanes<float>);
+}
+HWY_INLINE void load_quads(const float* in, Lane<float> (&out)[4]) {
+  const Lane<float>::Tag tag;
+  const hn::ScalableTag<double> two;  // numbers at a time
+  const auto q0 = hn::Load(tag, in), q1 = hn::Load(tag, in + kLanes<float>);
+  const auto q2 = hn::Load(tag, in + 2 * kLanes<float>), q3 = hn::Load(tag, in + 3 * kLanes<float>);
+  const auto ab = hn::BitCast(two, hn::InterleaveLower(tag, q0, q1)),
+             cd = hn::BitCast(two, hn::InterleaveUpper(tag, q0, q1)),
+             ab2 = hn::BitCast(two, hn::InterleaveLower(tag, q2, q3)),
+             cd2 = hn::BitCast(two, hn::InterleaveUpper(tag, q2, q3));
+  out[0].v[0] = hn::BitCast(tag, hn::InterleaveLower(two, ab, ab2));
+  out[1].v[0] = hn::BitCast(tag, hn::InterleaveUpper(two, ab, ab2));
+  out[2].v[0] = hn::BitCast(tag, hn::InterleaveLower(two, cd, cd2));
+  out[3].v[0] = hn::BitCast(tag, hn::InterleaveUpper(two, cd, cd2));
+}
+HWY_INLINE void store_quads(const Lane<double>& a, const Lane<double>& b, const Lane<double>& c,
+                            const Lane<double>& d, double* out) {
+  hn::StoreInterleaved4(a.v[0], b.v[0], c.v[0], d.v[0], Lane<double>::Tag(), out);
+}
+HWY_INLINE void load_quads(const double* in, Lane<double> (&out)[4]) {
+  hn::LoadInterleaved4(Lane<double>::Tag(), in, out[0].v[0], out[1].v[0], out[2].v[0], out[3].v[0]);
 }
 
 template <class Real, int D, bool kGradient>

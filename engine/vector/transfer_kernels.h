@@ -56,7 +56,7 @@ HWY_INLINE void gather_tile(const BlockTask<Real, D>& task, const TileView<Real,
   // The copies of the first particle that fill a partial tile do as it does: the largest speed is of them
   // all.
   for (int p = n; p < kTileSize; ++p)
-    for (Real* quads : work.record) Quad<Real>::load(quads).store(quads + p * kQuad);
+    for (Real* quads : work.record) Quad<Real>::load(quads).store(quads + quad_place<Real>(p) * kQuad);
 
   const L dt(task.dt), inverse_h(Real(1) / task.h), reach(task.h * Real(kMaxCell - 2 * kBlockEdge));
   for (int at = 0; at < kTileSize; at += kLanes<Real>) {
@@ -118,7 +118,7 @@ HWY_INLINE void scatter_tile(const BlockTask<Real, D>& task, const TileView<Real
   work.stencil.place(tile.at(Column::position), Real(1) / task.h, task.block);
   const L h(task.h), impulse(-task.next / task.h), zero(0);
   const auto store = [&](int k, int at, const L(&a)[D]) HWY_ATTR {
-    store_quads<Real>(a[0], a[1], D == 3 ? a[D - 1] : zero, zero, work.record[k] + at * kQuad);
+    store_quads(a[0], a[1], D == 3 ? a[D - 1] : zero, zero, work.record[k] + at * kQuad);
   };
   for (int at = 0; at < kTileSize; at += kLanes<Real>) {
     const L scale = impulse * L::load(tile.at(Column::volume) + at);
@@ -138,7 +138,7 @@ HWY_INLINE void scatter_tile(const BlockTask<Real, D>& task, const TileView<Real
       if constexpr (Transfer::affine) store(In::kMoment + d, at, A);
       if constexpr (!Transfer::moments) store(In::kGradient + d, at, T);
     }
-    store_quads<Real>(b[0], b[1], D == 3 ? b[D - 1] : m, D == 3 ? m : zero, work.record[0] + at * kQuad);
+    store_quads(b[0], b[1], D == 3 ? b[D - 1] : m, D == 3 ? m : zero, work.record[0] + at * kQuad);
   }
   for (int p = 0; p < n; ++p)
     scatter_rows<Real, D, Transfer::affine, Work::kGradient>(work.stencil, work.record, p, nodes);

@@ -36,8 +36,25 @@ struct FixedCorotatedEnergy {
   /// + s_j)) too; never below mu, so that a collapsed point keeps a finite time step.
   template <class L, int D>
   static L wave_modulus(const Vector<L, D>& s, const Lame<L>& m) {
-    const L J = product(s);
-    return max(L(2) * m.mu * largest_square(s) + m.lam * J * J, m.mu);
+    return wave_modulus(largest_square(s), product(s), m);
+  }
+  /// The same from a bound on the squares s_k^2 and J.
+  template <class L>
+  static L wave_modulus(L largest_square, L J, const Lame<L>& m) {
+    return max(L(2) * m.mu * largest_square + m.lam * J * J, m.mu);
+  }
+
+  /// tau = 2 mu (F - R) F^T + lam (J - 1) J I, the same without singular values: R is F's rotation.
+  template <class L>
+  static Matrix<L, 3> kirchhoff(const Matrix<L, 3>& F, const Matrix<L, 3>& R, L J, const Lame<L>& m) {
+    const Matrix<L, 3> P = L(2) * m.mu * (F - R);
+    Matrix<L, 3> tau;
+    for (int i = 0; i < 3; ++i)
+      for (int j = i; j < 3; ++j)
+        tau(i, j) = tau(j, i) = P(i, 0) * F(j, 0) + P(i, 1) * F(j, 1) + P(i, 2) * F(j, 2);
+    const L pressure = m.lam * (J - L(1)) * J;
+    for (int i = 0; i < 3; ++i) tau(i, i) = tau(i, i) + pressure;
+    return tau;
   }
 
   template <class L, int D>

@@ -27,6 +27,13 @@ struct SingularValueClamp {
     return out;
   }
 
+  /// Whether singular values with squares in [least, largest] are all in the set.
+  template <class L>
+  LaneMask<L> holds_squares(const L& least, const L& largest) const {
+    const double low = 1 - critical_compression, high = 1 + critical_stretch;
+    return (least >= L(low * low)) & (largest <= L(high * high));
+  }
+
   /// Which side each singular value left the set on, for readers: L(ower), M(iddle: elastic) or U(pper).
   template <int D>
   std::string branch(const Vector<double, D>& s) const {
