@@ -173,36 +173,39 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
   double update_grid(double dt) {
     grid_.resize(layout_);
     grid_samples_.begin(layout_.size(), 1 + effects_.size());
-    const double h = plan_->cell_size();
-    const double bound =
-        tbb::parallel_reduce(
-            tbb::blocked_range<std::size_t>(0, layout_.size(), 4), SpeedBound{},
-            [&](const tbb::blocked_range<std::size_t>& range, SpeedBound bound) {
-              OutboxPointers<Real, D> from, next = sources(range.begin());
-              for (std::size_t b = range.begin(); b < range.end(); ++b) {
-                from = next;
-                next = sources(std::min(b + 1, layout_.size() - 1));
-                Real* const nodes = &grid_.block(b)[0].v[0];
-                TickClock clock(grid_samples_.of(b));
-                const bool used = grid_kernels_.collect(from, next, nodes);
-                clock.lap(0);
-                if (!used) continue;
-                BlockNodes<Real, D> block{grid_.block(b), {}, layout_.coord(b), h};
-                for (std::size_t e = 0; e < effects_.size(); ++e) {
-                  std::visit([&](const auto& effect) { effect.apply(block, dt); }, effects_[e]);
-                  clock.lap(1 + e);
-                }
-                bound.join(grid_kernels_.speed_bound(nodes, lightest_));
-                clock.lap(0);
-              }
-              return bound;
-            },
-            [](SpeedBound a, const SpeedBound& b) {
-              a.join(b);
-              return a;
-            })
-            .value();
+    const SpeedBound all = tbb::parallel_reduce(
+        tbb::blocked_range<std::size_t>(0, layout_.size(), 4), SpeedBound{},
+        [&](const tbb::blocked_range<std::size_t>& range, SpeedBound bound) {
+          OutboxPointers<Real, D> from, next = sources(range.begin());
+          for (std::size_t b = range.begin(); b < range.end(); ++b) {
+            from = next;
+            next = sources(std::min(b + 1, layout_.size() - 1));
+            bound.join(update_grid_block(b, from, next, dt));
+          }
+          return bound;
+        },
+        [](SpeedBound a, const SpeedBound& b) {
+          a.join(b);
+          return a;
+        });
     grid_samples_.end();
+    return all.value();
+  }
+
+  SpeedBound update_grid_block(std::size_t b, const OutboxPointers<Real, D>& from,
+                               const OutboxPointers<Real, D>& next, double dt) {
+    TickClock clock(grid_samples_.of(b));
+    Real* const nodes = &grid_.block(b)[0].v[0];
+    const bool used = grid_kernels_.collect(from, next, nodes);
+    clock.lap(0);
+    if (!used) return {};
+    BlockNodes<Real, D> block{grid_.block(b), {}, layout_.coord(b), plan_->cell_size()};
+    for (std::size_t e = 0; e < effects_.size(); ++e) {
+      std::visit([&](const auto& effect) { effect.apply(block, dt); }, effects_[e]);
+      clock.lap(1 + e);
+    }
+    const SpeedBound bound = grid_kernels_.speed_bound(nodes, lightest_);
+    clock.lap(0);
     return bound;
   }
 
