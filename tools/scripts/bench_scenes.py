@@ -8,10 +8,7 @@ import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
-CELL = 0.02  # m; nothing depends on it
-# m/s, of the corners of every body, as of the box that `firn bench` brings along: the same time step and as many cells
-# crossed in a step, however large the body is.
-RIM_SPEED = 6.8
+CELL = 0.02  # m, as of the box that `firn bench` brings along
 
 SNOW = {"model": '"snow_stomakhin_2013"'}
 
@@ -24,7 +21,7 @@ def options(description, rounds, steps):
     parser.add_argument("--out", metavar="FILE", help="for the Markdown; standard output if left out")
     parser.add_argument("--rounds", type=int, default=rounds, help="turns, of which the best counts (%(default)s)")
     parser.add_argument("--steps", type=int, default=steps, help="of a round (%(default)s)")
-    parser.add_argument("--quick", action="store_true", help="few particles, steps and rounds: for tests, not for figures")
+    parser.add_argument("--quick", action="store_true", help="few particles and steps: for tests, not for figures")
     return parser
 
 
@@ -77,8 +74,10 @@ def write(folder, name, text):
 def firn(program, *arguments):
     """What it prints. Its messages and its progress go where ours do."""
     done = subprocess.run([program, *map(str, arguments)], stdout=subprocess.PIPE, text=True, check=False)
-    if done.returncode != 0:
-        sys.exit(done.returncode if done.returncode > 0 else 1)
+    if done.returncode < 0:
+        sys.exit(f"{program} was ended by signal {-done.returncode}")
+    if done.returncode > 0:
+        sys.exit(done.returncode)
     return done.stdout
 
 
