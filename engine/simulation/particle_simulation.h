@@ -72,6 +72,8 @@ class ParticleSimulation : public Simulation {
     f();
     times_.seconds[pass] += seconds_since(start);
   }
+  /// What was done to set up is not part of any step.
+  void restart_clock() { times_ = {}; }
   static double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
