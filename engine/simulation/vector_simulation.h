@@ -21,11 +21,13 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
   using Kernel = typename TransferKernels<Real, D>::Kernel;
 
  public:
-  VectorSimulation(const Plan& plan, std::span<const Seeds> seeds, const KernelTable<Real, D>& table)
+  VectorSimulation(const Plan& plan, std::span<const Seeds> seeds, const KernelTable<Real, D>& table,
+                   const SortKernels<Real>& sort_kernels)
       : Base(plan, seeds),
         kernels_(transfer(table, plan.scene.simulation.transfer)),
         grid_kernels_(table.grid),
         updates_(table.materials),
+        sorter_(sort_kernels),
         reports_(batches_.size()) {
     for (const auto& batch : batches_)
       for (std::size_t p = 0; p < batch.particles.size(); ++p)
