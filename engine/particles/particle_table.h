@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,7 +14,7 @@
 #include "engine/base/check.h"
 #include "engine/math/matrix.h"
 #include "engine/particles/columns.h"
-#include "engine/particles/tile.h"
+#include "engine/particles/move_tiles.h"
 
 namespace firn {
 
@@ -98,6 +97,11 @@ class ParticleTable {
     return ColumnView<const Real, D, info(c).rank>(data_[index(c)].data());
   }
 
+  template <Column c>
+  const Real* data() const {
+    FIRN_CHECK(columns_.has(c));
+    return data_[index(c)].data();
+  }
   /// Where each column's tiles begin; null for a column that is not there.
   std::array<Real*, kColumnCount> pointers() {
     std::array<Real*, kColumnCount> out{};
@@ -111,39 +115,32 @@ class ParticleTable {
   std::span<std::uint32_t> id() { return id_; }
   std::span<const std::uint32_t> id() const { return id_; }
 
-  /// Particle i becomes what particle source[i] was. Only the columns in `moved` keep their values; `spare`,
-  /// a matrix column that is not among them, lends its memory, or else a buffer is taken for the while.
-  void reorder(std::span<const std::uint32_t> source, ColumnSet moved, std::optional<Column> spare) {
+  /// Particle i becomes what particle source[i] was. Only the columns in `moved` keep their values; the
+  /// others lend their memory, and where none is large enough a buffer is taken for the while.
+  void reorder(std::span<const std::uint32_t> source, ColumnSet moved,
+               MoveTiles<Real> move = move_tiles<Real>) {
     FIRN_CHECK(source.size() == size_);
     Values buffer;
-    Values& other = spare && columns_.has(*spare) ? data_[index(*spare)] : buffer;
-    FIRN_CHECK(!spare || !moved.has(*spare));
-    const std::size_t lent = other.size();
     for (int c = 0; c < kColumnCount; ++c) {
       const auto column = static_cast<Column>(c);
       if (!columns_.has(column) || !moved.has(column)) continue;
       Values& data = data_[index(column)];
       const std::size_t needed = data.size();
+      Values* const lent = lender(needed, moved);
+      Values& other = lent != nullptr ? *lent : buffer;
       if (other.size() < needed) other.resize(needed);
-      const std::size_t width = column_width(column);
-      if (width == 1)
-        reorder_column<1>(data, other, source);
-      else if (width == D)
-        reorder_column<D>(data, other, source);
-      else if (width == D * D)
-        reorder_column<D * D>(data, other, source);
-      else
-        reorder_column<D*(D + 1) / 2>(data, other, source);
-      // The values stand in `other` now. Columns of the lent one's size change places with it; smaller ones
-      // are copied back, so that no column ends up with more memory than it needs.
+      move_column(data, other, source, column_width(column), move);
+      // The values stand in `other` now. A column of the same size changes places with it; a smaller one is
+      // copied back, so that no column ends up with more memory than it needs.
       if (needed == other.size())
         data.swap(other);
       else
         copy(other, data);
     }
-    FIRN_CHECK(!spare || !columns_.has(*spare) || other.size() == lent);
     ids_.resize(size_);
-    for (std::size_t i = 0; i < size_; ++i) ids_[i] = id_[source[i]];
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, size_, 1 << 14), [&](const auto& range) {
+      for (std::size_t i = range.begin(); i < range.end(); ++i) ids_[i] = id_[source[i]];
+    });
     id_.swap(ids_);
   }
 
@@ -157,20 +154,28 @@ class ParticleTable {
   static constexpr std::size_t column_width(Column c) { return static_cast<std::size_t>(components(c, D)); }
   static constexpr std::size_t padded(std::size_t n) { return (n + kTile - 1) / kTile * kTile; }
 
-  template <int width>
-  void reorder_column(const Values& from, Values& to, std::span<const std::uint32_t> source) const {
+  /// The smallest column that is not in `moved` and has room for `needed` numbers; null when there is none.
+  Values* lender(std::size_t needed, ColumnSet moved) {
+    Values* out = nullptr;
+    for (int c = 0; c < kColumnCount; ++c) {
+      Values& data = data_[static_cast<std::size_t>(c)];
+      if (moved.has(static_cast<Column>(c)) || data.size() < needed) continue;
+      if (out == nullptr || data.size() < out->size()) out = &data;
+    }
+    return out;
+  }
+
+  static void move_column(const Values& from, Values& to, std::span<const std::uint32_t> source,
+                          std::size_t width, MoveTiles<Real> move) {
     constexpr std::size_t kGrain = 64;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, padded(size_) / kTile, kGrain),
-                      [&](const auto& tiles) {
-                        for (std::size_t tile = tiles.begin(); tile < tiles.end(); ++tile) {
-                          Real* out = to.data() + tile * width * kTile;
-                          const std::size_t first = tile * kTile, n = std::min(size_ - first, kTile);
-                          for (std::size_t i = 0; i < n; ++i) {
-                            const Real* in = from.data() + tile_index(source[first + i], 0, width);
-                            for (std::size_t c = 0; c < width; ++c) out[c * kTile + i] = in[c * kTile];
-                          }
-                        }
-                      });
+    const std::size_t whole = source.size() / kTile;
+    const auto part = [&](std::size_t tile) { return to.data() + tile * width * kTile; };
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, whole, kGrain), [&](const auto& tiles) {
+      move(from.data(), part(tiles.begin()), source.data() + tiles.begin() * kTile, tiles.size(),
+           static_cast<int>(width));
+    });
+    move_particles(from.data(), part(whole), source.data() + whole * kTile, source.size() - whole * kTile,
+                   static_cast<int>(width));
   }
   static void copy(const Values& from, Values& to) {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, to.size(), 1 << 14), [&](const auto& range) {

@@ -7,7 +7,8 @@ namespace firn {
 
 template <class Real, int D>
 std::unique_ptr<Simulation> make_vector(const Plan& plan, std::span<const Seeds> seeds, Isa isa) {
-  return std::make_unique<VectorSimulation<Real, D>>(plan, seeds, kernel_table<Real, D>(isa));
+  return std::make_unique<VectorSimulation<Real, D>>(plan, seeds, kernel_table<Real, D>(isa),
+                                                     sort_kernels<Real, D>(isa));
 }
 
 }  // namespace firn

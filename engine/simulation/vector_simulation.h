@@ -21,16 +21,18 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
   using Kernel = typename TransferKernels<Real, D>::Kernel;
 
  public:
-  VectorSimulation(const Plan& plan, std::span<const Seeds> seeds, const KernelTable<Real, D>& table)
+  VectorSimulation(const Plan& plan, std::span<const Seeds> seeds, const KernelTable<Real, D>& table,
+                   const SortKernels<Real>& sort_kernels)
       : Base(plan, seeds),
         kernels_(transfer(table, plan.scene.simulation.transfer)),
         grid_kernels_(table.grid),
         updates_(table.materials),
+        sorter_(sort_kernels),
         reports_(batches_.size()) {
     for (const auto& batch : batches_)
       for (std::size_t p = 0; p < batch.particles.size(); ++p)
         lightest_ = std::min(lightest_, batch.particles.template view<Column::mass>().load(p));
-    sort(ColumnSet::all(), std::nullopt);
+    sort(ColumnSet::all());
     // The wave speed of the seeded state; what else it leaves is not used.
     run_blocks(PassTimes::p2g, kernels_.begin, 0, 0);
     take_reports();
@@ -41,7 +43,7 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
     const double farthest = Base::kFarthestDrift * plan_->cell_size();
     FIRN_CHECK(announced_ == 0 || announced_ == dt);
     if (announced_ == 0) {
-      if (drift_ >= farthest) timed(PassTimes::sort, [&] { sort(ColumnSet::all(), std::nullopt); });
+      if (drift_ >= farthest) timed(PassTimes::sort, [&] { sort(ColumnSet::all()); });
       run_blocks(PassTimes::p2g, kernels_.begin, 0, dt);
     }
     double reach = 0;  // m: no particle moves farther in this step
@@ -52,8 +54,7 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
     if (drift_ > 0 && !(drift_ + reach < farthest))
       timed(PassTimes::sort, [&] {
         // Between the grid update and the particle pass nobody needs v and C.
-        sort(ColumnSet::all().without(Column::velocity).without(Column::affine).without(Column::stress),
-             Column::affine);
+        sort(ColumnSet::all().without(Column::velocity).without(Column::affine).without(Column::stress));
         move_grid();
       });
     // Particles that may have left the block's scratch cannot be scattered before they are sorted again.
@@ -130,9 +131,9 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
     }
   }
 
-  void sort(ColumnSet moved, std::optional<Column> spare) {
+  void sort(ColumnSet moved) {
     std::swap(layout_, old_layout_);
-    sorter_.sort(batches_, static_cast<Real>(plan_->cell_size()), layout_, moved, spare);
+    sorter_.sort(batches_, static_cast<Real>(plan_->cell_size()), layout_, moved);
     drift_ = 0;
     ++this->sorts_;
     outboxes_.resize(layout_.occupied());

@@ -7,6 +7,7 @@
 
 #include "engine/base/error.h"
 #include "engine/vector/targets/fma.h"
+#include "engine/vector/targets/sorts.h"
 #include "engine/vector/targets/tables.h"
 
 namespace firn {
@@ -62,6 +63,23 @@ template KernelTable<float, 2> kernel_table(Isa);
 template KernelTable<float, 3> kernel_table(Isa);
 template KernelTable<double, 2> kernel_table(Isa);
 template KernelTable<double, 3> kernel_table(Isa);
+
+template <class Real, int D>
+SortKernels<Real> sort_kernels(Isa isa) {
+  switch (isa) {
+    case Isa::avx512:
+      return avx512::sort_kernels<Real, D>();
+    case Isa::avx2:
+      return avx2::sort_kernels<Real, D>();
+    case Isa::sse4:
+      break;
+  }
+  return sse4::sort_kernels<Real, D>();
+}
+template SortKernels<float> sort_kernels<float, 2>(Isa);
+template SortKernels<float> sort_kernels<float, 3>(Isa);
+template SortKernels<double> sort_kernels<double, 2>(Isa);
+template SortKernels<double> sort_kernels<double, 3>(Isa);
 
 template <class Real>
 FmaBurst fma_burst(Isa isa) {

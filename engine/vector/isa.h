@@ -5,6 +5,7 @@
 #include <optional>
 #include <string_view>
 
+#include "engine/passes/sort_kernels.h"
 #include "engine/vector/fma.h"
 #include "engine/vector/kernel_tables.h"
 
@@ -26,6 +27,9 @@ std::optional<Isa> best_isa();
 
 template <class Real, int D>
 KernelTable<Real, D> kernel_table(Isa isa);
+
+template <class Real, int D>
+SortKernels<Real> sort_kernels(Isa isa);
 
 /// Some hundredths of a millisecond of multiply-adds.
 template <class Real>

@@ -49,7 +49,7 @@ TEST_CASE("reordering moves every column and the ids together") {
     table.view<Column::position>().store(p, Vector<float, 2>{static_cast<float>(p), -static_cast<float>(p)});
     source[p] = (p * 37) % 100;
   }
-  table.reorder(source, ColumnSet::all(), std::nullopt);
+  table.reorder(source, ColumnSet::all());
   for (std::uint32_t p = 0; p < 100; ++p) {
     REQUIRE(table.id()[p] == source[p]);
     REQUIRE(table.view<Column::mass>().load(p) == static_cast<float>(source[p]));
