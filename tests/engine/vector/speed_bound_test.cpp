@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <tbb/cache_aligned_allocator.h>
 
 #include "engine/passes/batch.h"
 #include "engine/vector/isa.h"
@@ -7,6 +8,10 @@
 using namespace firn;
 
 namespace {
+
+// Kernels load whole registers.
+template <class Real, int D>
+using Nodes = std::vector<Node<Real, D>, tbb::cache_aligned_allocator<Node<Real, D>>>;
 
 /// Of whole blocks of nodes; the same whatever the instruction set.
 template <class Real, int D>
@@ -30,7 +35,7 @@ SpeedBound speed_bound(std::span<const Node<Real, D>> nodes, Real lightest) {
 template <class Real, int D>
 struct Cloud {
   std::vector<Stencil<QuadraticKernel, Real, D>> stencils;
-  std::vector<Node<Real, D>> nodes = std::vector<Node<Real, D>>(Scratch<int, D>::kSize);
+  Nodes<Real, D> nodes = Nodes<Real, D>(Scratch<int, D>::kSize);
   Real lightest = std::numeric_limits<Real>::max();
 
   Cloud(std::size_t count, std::mt19937& random) {
@@ -88,7 +93,7 @@ TEMPLATE_TEST_CASE_SIG("no particle is faster than the bound, however fast the l
 }
 
 TEMPLATE_TEST_CASE_SIG("a node that hardly any mass reaches hardly counts", "[vector]", FIRN_PATH_KINDS) {
-  std::vector<Node<Real, D>> nodes(64);
+  Nodes<Real, D> nodes(64);
   for (auto& node : nodes) node = {Vector<Real, D>::constant(Real(-2)), Real(1)};
   nodes[5] = {Vector<Real, D>::constant(Real(1e6)), Real(1e-9)};
   nodes[6] = {Vector<Real, D>::constant(std::numeric_limits<Real>::infinity()), Real(0)};  // not in use
@@ -114,7 +119,7 @@ TEMPLATE_TEST_CASE_SIG("a velocity that is not finite gives no finite bound", "[
   for (const Real bad : {Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity()})
     for (const Real mass : {Real(1e-6), Real(1e6)})  // light and heavy
       for (const std::size_t at : {0, 17, 63}) {
-        std::vector<Node<Real, D>> nodes(64, {Vector<Real, D>::constant(Real(1)), Real(1)});
+        Nodes<Real, D> nodes(64, {Vector<Real, D>::constant(Real(1)), Real(1)});
         nodes[at].v[D - 1] = bad;
         nodes[at].m = mass;
         REQUIRE_FALSE(std::isfinite(speed_bound<Real, D>(std::span(std::as_const(nodes)), Real(1)).value()));
