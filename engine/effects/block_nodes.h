@@ -13,7 +13,8 @@ struct BlockNodes {
   std::span<Node<Real, D>> nodes;     // v is velocity; nodes with m = 0 are not in use
   std::span<Vector<Real, D>> before;  // velocity without this step's forces; empty unless the scheme keeps it
   BlockCoord<D> block;
-  double h;  // m
+  double h;                // m
+  std::size_t number = 0;  // of the block in its layout
 
   /// In 2D and 1D the missing coordinates are zero.
   Vec3 position(std::size_t node) const {

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <bit>
+#include <cstdint>
 #include <string>
 
 #include "engine/effects/block_nodes.h"
@@ -19,6 +21,15 @@ struct Collider {
   RigidMotion motion;
 };
 
+/// A set of nodes of a block, one bit each.
+using NodeSet = std::uint64_t;
+
+/// Calls f with the number of each node in the set, in their order.
+template <class F>
+void for_each_node(NodeSet set, F&& f) {
+  for (; set != 0; set &= set - 1) f(static_cast<std::size_t>(std::countr_zero(set)));
+}
+
 /// A collider where it is during one step.
 class PosedCollider {
  public:
@@ -27,21 +38,43 @@ class PosedCollider {
   template <class Real, int D>
   void apply(BlockNodes<Real, D>& block, double dt) const {
     static_cast<void>(dt);
-    if (!may_touch(block.position(0), block.position(kBlockNodes<D> - 1))) return;
+    for_each_node(inside(block), [&](std::size_t n) {
+      if (block.nodes[n].m > Real(0)) hold(block, n, normal<Real, D>(block.position(n), block.h));
+    });
+  }
+
+  /// The nodes of the block that lie in the collider.
+  template <class Real, int D>
+  NodeSet inside(const BlockNodes<Real, D>& block) const {
+    if (!may_touch(block.position(0), block.position(kBlockNodes<D> - 1))) return 0;
     std::array<Vec3, kBlockNodes<D>> points;
     std::array<double, kBlockNodes<D>> phi;
     for (std::size_t n = 0; n < points.size(); ++n) points[n] = pose_.to_local(block.position(n));
     collider_->shape->distance(points, phi);
-    for (std::size_t n = 0; n < points.size(); ++n) {
-      if (phi[n] > 0 || !(block.nodes[n].m > Real(0))) continue;
-      const Vector<Real, D> wall = to_vector<Real, D>(pose_.velocity_at(block.position(n)));
-      const Vector<Real, D> normal = plane_normal<Real, D>(outward(points[n], block.h));
-      const Real friction = static_cast<Real>(collider_->friction);
-      block.nodes[n].v = contact_velocity(collider_->contact, friction, block.nodes[n].v, wall, normal);
-      // A two-sided condition holds before the forces too: its nodes have no rate (Buzzi et al., figure 21).
-      if (!block.before.empty() && collider_->contact != Contact::separating)
-        block.before[n] = contact_velocity(collider_->contact, Real(0), block.before[n], wall, normal);
-    }
+    NodeSet out = 0;
+    for (std::size_t n = 0; n < phi.size(); ++n) out |= NodeSet{phi[n] <= 0} << n;
+    return out;
+  }
+
+  /// The way out from `x` within the D axes of the scene, unit or zero.
+  template <class Real, int D>
+  Vector<Real, D> normal(const Vec3& x, double h) const {
+    Vec3 n = outward(pose_.to_local(x), h);
+    for (int d = D; d < 3; ++d) n[d] = 0;
+    const double length = n.norm();
+    return to_vector<Real, D>(length > 0 ? Vec3(n / length) : n);
+  }
+
+  /// What contact makes of node `n`.
+  template <class Real, int D>
+  void hold(BlockNodes<Real, D>& block, std::size_t n, const Vector<Real, D>& normal) const {
+    const Vector<Real, D> wall = to_vector<Real, D>(pose_.velocity_at(block.position(n)));
+    const Real friction = static_cast<Real>(collider_->friction);
+    Vector<Real, D>& v = block.nodes[n].v;
+    v = contact_velocity(collider_->contact, friction, v, wall, normal);
+    // A two-sided condition holds before the forces too: its nodes have no rate (Buzzi et al., figure 21).
+    if (!block.before.empty() && collider_->contact != Contact::separating)
+      block.before[n] = contact_velocity(collider_->contact, Real(0), block.before[n], wall, normal);
   }
 
  private:
@@ -50,14 +83,6 @@ class PosedCollider {
 
   /// Gradient of the distance, unit or zero, in world axes.
   Vec3 outward(const Vec3& local, double h) const;
-
-  /// A 3D normal within the D axes of the scene, unit or zero.
-  template <class Real, int D>
-  static Vector<Real, D> plane_normal(Vec3 n) {
-    for (int d = D; d < 3; ++d) n[d] = 0;
-    const double length = n.norm();
-    return to_vector<Real, D>(length > 0 ? Vec3(n / length) : n);
-  }
 
   const Collider* collider_;
   RigidPose pose_;

@@ -11,8 +11,7 @@ struct Gravity {
   template <class Real, int D>
   void apply(BlockNodes<Real, D>& block, double dt) const {
     const Vector<Real, D> change = to_vector<Real, D>(dt * acceleration);
-    for (auto& node : block.nodes)
-      if (node.m > Real(0)) node.v += change;
+    for (auto& node : block.nodes) node.v += (node.m > Real(0) ? Real(1) : Real(0)) * change;
   }
 };
 

@@ -32,6 +32,8 @@ class RigidMotion {
   RigidMotion() = default;  // at rest at the origin
   explicit RigidMotion(std::vector<Key> keys) : keys_(std::move(keys)) {}
 
+  /// Whether it has the same pose at all times.
+  bool still() const { return keys_.size() < 2; }
   RigidPose at(double time) const;
   /// A bound on the speed that a point within `radius` of the shape's origin ever has, m/s.
   double max_speed(double radius) const;

@@ -32,7 +32,7 @@ class PlainSimulation final : public ParticleSimulation<Real, D> {
                                      grid_);
     });
     timed(PassTimes::grid, [&] {
-      effects_at(plan_->effects, time_ + dt, effects_);
+      effects_at<Real, D>(plan_->effects, time_ + dt, {}, effects_);
       grid_update<Transfer, Real, D>(layout_, h, dt, effects_, grid_);
     });
     Motion motion;
@@ -85,7 +85,7 @@ class PlainSimulation final : public ParticleSimulation<Real, D> {
 
   Sorter<Kernel, Real, D> sorter_;
   GridNodes<Real, D> grid_;
-  std::vector<StepEffect> effects_;
+  std::vector<StepEffect<Real, D>> effects_;
   std::vector<MaterialReport> reports_;
   std::vector<double> material_seconds_;  // by batch
 };

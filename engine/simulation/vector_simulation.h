@@ -32,6 +32,8 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
     for (const auto& batch : batches_)
       for (std::size_t p = 0; p < batch.particles.size(); ++p)
         lightest_ = std::min(lightest_, batch.particles.template view<Column::mass>().load(p));
+    for (const Collider& collider : plan.effects.colliders)
+      if (collider.motion.still()) still_.emplace_back(collider);
     sort(ColumnSet::all());
     // The wave speed of the seeded state; what else it leaves is not used.
     run_blocks(PassTimes::p2g, kernels_.begin, 0, 0);
@@ -48,7 +50,8 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
     }
     double reach = 0;  // m: no particle moves farther in this step
     timed(PassTimes::grid, [&] {
-      effects_at(plan_->effects, time_ + dt, effects_);
+      find_contacts();
+      effects_at<Real, D>(plan_->effects, time_ + dt, still_, effects_);
       reach = dt * update_grid(dt);
     });
     if (drift_ > 0 && !(drift_ + reach < farthest))
@@ -98,9 +101,9 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
 
     // The parts of the grid update: what every scene needs, then the effects in their order.
     const std::vector<double> shares = grid_samples_.shares();
-    const auto grid = [&](std::size_t part) {
-      return part < shares.size() ? shares[part] * this->seconds(PassTimes::grid) : 0;
-    };
+    double shared = this->seconds(PassTimes::grid);
+    for (const auto& collider : still_) shared -= collider.seconds();
+    const auto grid = [&](std::size_t part) { return part < shares.size() ? shares[part] * shared : 0; };
     std::size_t part = 0;
     out.push_back({"grid",
                    {},
@@ -108,15 +111,23 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
                    grid(part++),
                    grid_.bytes() + other_grid_.bytes() + layout_.bytes() + old_layout_.bytes()});
     if (plan_->effects.gravity) out.push_back({"gravity", {}, "grid", grid(part++), 0});
-    for (const Collider& c : plan_->effects.colliders)
+    auto still = still_.begin();
+    for (const Collider& c : plan_->effects.colliders) {
       out.push_back({c.name, "collider", "grid", grid(part++), 0});
+      if (!c.motion.still()) continue;
+      out.back().seconds += still->seconds();
+      out.back().bytes += still->bytes();
+      ++still;
+    }
     if (plan_->effects.domain) out.push_back({"domain", {}, "grid", grid(part++), 0});
     return out;
   }
 
   std::size_t bytes() const override {
+    std::size_t contact_bytes = 0;
+    for (const auto& collider : still_) contact_bytes += collider.bytes();
     return this->table_bytes() + grid_.bytes() + other_grid_.bytes() + outboxes_.bytes() + layout_.bytes() +
-           old_layout_.bytes() + sorter_.bytes();
+           old_layout_.bytes() + sorter_.bytes() + contact_bytes;
   }
 
  private:
@@ -140,6 +151,7 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
     motions_.resize(layout_.occupied());
     block_reports_.resize(layout_.occupied() * batches_.size());
     make_tasks();
+    contacts_known_ = false;
   }
 
   void make_tasks() {
@@ -169,6 +181,12 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
         std::copy(grid_.block(old).begin(), grid_.block(old).end(), to.begin());
     });
     grid_.swap(other_grid_);
+  }
+
+  void find_contacts() {
+    if (contacts_known_) return;
+    for (auto& collider : still_) collider.find(layout_, plan_->cell_size());
+    contacts_known_ = true;
   }
 
   /// A bound on the velocity components of all particles in this step, m/s; not finite when a node's is not.
@@ -201,9 +219,9 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
     const bool used = grid_kernels_.collect(from, next, nodes);
     clock.lap(0);
     if (!used) return {};
-    BlockNodes<Real, D> block{grid_.block(b), {}, layout_.coord(b), plan_->cell_size()};
+    BlockNodes<Real, D> block{grid_.block(b), {}, layout_.coord(b), plan_->cell_size(), b};
     for (std::size_t e = 0; e < effects_.size(); ++e) {
-      std::visit([&](const auto& effect) { effect.apply(block, dt); }, effects_[e]);
+      apply(effects_[e], block, dt);
       clock.lap(1 + e);
     }
     const SpeedBound bound = grid_kernels_.speed_bound(nodes, lightest_);
@@ -273,12 +291,14 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
   BlockLayout<D> old_layout_;
   BlockArray<Node<Real, D>, D> grid_, other_grid_;
   Outboxes<Real, D> outboxes_;
-  std::vector<StepEffect> effects_;
+  std::vector<StepEffect<Real, D>> effects_;
+  std::vector<StillCollider<Real, D>> still_;
   std::vector<MaterialReport> reports_, block_reports_;  // block_reports_: block by block, then by batch
   std::vector<Motion> motions_;
   std::array<BlockSamples, PassTimes::count> samples_;
   BlockSamples grid_samples_;
   Real lightest_ = std::numeric_limits<Real>::max();  // kg, of the particles
+  bool contacts_known_ = false;                       // of still_ in layout_
   double announced_ = 0;  // s; the length of the step whose forces are in the outboxes, or 0
 };
 

@@ -1,10 +1,12 @@
 #include "engine/effects/contact.h"
 
 #include <numbers>
+#include <random>
 
 #include <catch2/catch.hpp>
 
 #include "engine/effects/grid_effects.h"
+#include "engine/shapes/primitives.h"
 
 using namespace firn;
 using V = Vector<double, 3>;
@@ -76,6 +78,42 @@ TEST_CASE("a turned collider pushes along its turned normal") {
   BlockNodes<double, 3> block{nodes, {}, {1, 0, 0}, 0.1};
   PosedCollider(wall, 0).apply(block, 0.01);
   for (const auto& n : nodes) check_equal(n.v, {0, 1, 0});
+}
+
+TEST_CASE("a collider that never moves does what it would do if it were looked at in every step") {
+  RigidMotion turned({{0, Vec3(0.1, -0.05, 0), Vec3(0.3, 0.2, 0.5)}});
+  REQUIRE(turned.still());
+  const Collider wall{"wall", make_sphere(Vec3(0.2, 0.1, 0.3), 0.45), Contact::separating, 0.3, turned};
+  std::vector<std::uint64_t> occupied;
+  for (int x = -4; x < 8; x += 4)
+    for (int y = -4; y < 8; y += 4) occupied.push_back(block_of_key(cell_key<3>({x, y, 2})));
+  std::sort(occupied.begin(), occupied.end());
+  const BlockLayout<3> layout(occupied);
+  const double h = 0.1;
+  StillCollider<double, 3> still(wall);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> speed(-1, 1);
+  for (int round = 0; round < 2; ++round) {
+    still.find(layout, h);
+    std::size_t held = 0;
+    for (std::size_t b = 0; b < layout.size(); ++b) {
+      std::array<Node<double, 3>, kBlockNodes<3>> before, nodes, expected;
+      for (auto& n : before)
+        n = {V{speed(random), speed(random), speed(random)}, speed(random) < 0 ? 0.0 : 1.0};
+      nodes = expected = before;
+      BlockNodes<double, 3> block{nodes, {}, layout.coord(b), h, b};
+      still.apply(block, 0.01);
+      BlockNodes<double, 3> reference{expected, {}, layout.coord(b), h, b};
+      PosedCollider(wall, 0).apply(reference, 0.01);
+      for (std::size_t n = 0; n < nodes.size(); ++n)
+        for (int d = 0; d < 3; ++d) {
+          CHECK(nodes[n].v[d] == expected[n].v[d]);
+          held += nodes[n].v[d] != before[n].v[d];
+        }
+    }
+    CHECK(held > 100);
+  }
+  CHECK(still.bytes() > 0);
 }
 
 TEST_CASE("domain walls stop what leaves and let go of what returns") {
