@@ -3,10 +3,10 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <string>
 
+#include "engine/base/bits.h"
 #include "engine/effects/block_nodes.h"
 #include "engine/effects/contact.h"
 #include "engine/effects/rigid_motion.h"
@@ -24,12 +24,6 @@ struct Collider {
 /// A set of nodes of a block, one bit each.
 using NodeSet = std::uint64_t;
 
-/// Calls f with the number of each node in the set, in their order.
-template <class F>
-void for_each_node(NodeSet set, F&& f) {
-  for (; set != 0; set &= set - 1) f(static_cast<std::size_t>(std::countr_zero(set)));
-}
-
 /// A collider where it is during one step.
 class PosedCollider {
  public:
@@ -38,7 +32,7 @@ class PosedCollider {
   template <class Real, int D>
   void apply(BlockNodes<Real, D>& block, double dt) const {
     static_cast<void>(dt);
-    for_each_node(inside(block), [&](std::size_t n) {
+    for_each_bit(inside(block), [&](std::size_t n) {
       if (block.nodes[n].m > Real(0)) hold(block, n, normal<Real, D>(block.position(n), block.h));
     });
   }

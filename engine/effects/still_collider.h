@@ -33,15 +33,15 @@ class StillCollider {
     tbb::parallel_for(std::size_t{0}, layout.size(), [&](std::size_t b) {
       const auto block = place(b);
       auto out = normals_.begin() + static_cast<std::ptrdiff_t>(first_[b]);
-      for_each_node(nodes_[b],
-                    [&](std::size_t n) { *out++ = posed_.template normal<Real, D>(block.position(n), h); });
+      for_each_bit(nodes_[b],
+                   [&](std::size_t n) { *out++ = posed_.template normal<Real, D>(block.position(n), h); });
     });
     seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
 
   void apply(BlockNodes<Real, D>& block, double) const {
     auto normal = normals_.begin() + static_cast<std::ptrdiff_t>(first_[block.number]);
-    for_each_node(nodes_[block.number], [&](std::size_t n) {
+    for_each_bit(nodes_[block.number], [&](std::size_t n) {
       if (block.nodes[n].m > Real(0)) posed_.hold(block, n, *normal);
       ++normal;
     });

@@ -16,10 +16,8 @@ class Outboxes {
  public:
   static constexpr std::size_t kNodes = power(2 * kBlockEdge, D);
 
-  void resize(std::size_t blocks) { values_.resize((1 + blocks) * kNodes); }
-  Node<Real, D>* block(std::size_t b) { return values_.data() + (1 + b) * kNodes; }
-  /// Nothing but zeros: for a neighbour that no particle is in.
-  const Node<Real, D>* none() const { return values_.data(); }
+  void resize(std::size_t blocks) { values_.resize(blocks * kNodes); }
+  Node<Real, D>* block(std::size_t b) { return values_.data() + b * kNodes; }
   std::size_t bytes() const { return values_.capacity() * sizeof(Node<Real, D>); }
 
  private:

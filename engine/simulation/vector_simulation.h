@@ -148,6 +148,8 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
     drift_ = 0;
     ++this->sorts_;
     outboxes_.resize(layout_.occupied());
+    lines_.assign(layout_.occupied(), kAllLines<D>);
+    new_lines_.resize(layout_.occupied());
     motions_.resize(layout_.occupied());
     block_reports_.resize(layout_.occupied() * batches_.size());
     make_tasks();
@@ -196,7 +198,7 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
     const SpeedBound all = tbb::parallel_reduce(
         tbb::blocked_range<std::size_t>(0, layout_.size(), 4), SpeedBound{},
         [&](const tbb::blocked_range<std::size_t>& range, SpeedBound bound) {
-          OutboxPointers<Real, D> from, next = sources(range.begin());
+          OutboxViews<Real, D> from, next = sources(range.begin());
           for (std::size_t b = range.begin(); b < range.end(); ++b) {
             from = next;
             next = sources(std::min(b + 1, layout_.size() - 1));
@@ -212,8 +214,8 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
     return all.value();
   }
 
-  SpeedBound update_grid_block(std::size_t b, const OutboxPointers<Real, D>& from,
-                               const OutboxPointers<Real, D>& next, double dt) {
+  SpeedBound update_grid_block(std::size_t b, const OutboxViews<Real, D>& from,
+                               const OutboxViews<Real, D>& next, double dt) {
     TickClock clock(grid_samples_.of(b));
     Real* const nodes = &grid_.block(b)[0].v[0];
     const bool used = grid_kernels_.collect(from, next, nodes);
@@ -229,10 +231,11 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
     return bound;
   }
 
-  OutboxPointers<Real, D> sources(std::size_t b) {
-    OutboxPointers<Real, D> out;
+  OutboxViews<Real, D> sources(std::size_t b) {
+    OutboxViews<Real, D> out;
     std::transform(layout_.sources(b).begin(), layout_.sources(b).end(), out.begin(), [&](std::uint32_t s) {
-      return &(s == BlockLayout<D>::kNone ? outboxes_.none() : outboxes_.block(s))->v[0];
+      return s == BlockLayout<D>::kNone ? OutboxView<Real>{}
+                                        : OutboxView<Real>{&outboxes_.block(s)->v[0], lines_[s]};
     });
     return out;
   }
@@ -246,6 +249,7 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
       });
     });
     samples_[pass].end();
+    if (next != 0) std::swap(lines_, new_lines_);  // something was scattered
   }
 
   std::array<const Real*, kNeighbours<D>> velocities(std::size_t b) {
@@ -266,13 +270,17 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
     task.block = layout_.coord(b);
     if (dt > 0) {
       task.velocities = velocities(b);
-      task.next_velocities = velocities(std::min(b + 1, layout_.occupied() - 1));
+      const std::size_t next_block = std::min(b + 1, layout_.occupied() - 1);
+      task.next_velocities = velocities(next_block);
+      task.next_lines = lines_[next_block];
     }
+    task.lines = lines_[b];
     task.outbox = &outboxes_.block(b)->v[0];
     task.h = static_cast<Real>(plan_->cell_size());
     task.dt = static_cast<Real>(dt);
     task.next = static_cast<Real>(next);
     kernel(task);
+    new_lines_[b] = task.touched;
     motions_[b] = task.motion;
   }
 
@@ -291,6 +299,7 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
   BlockLayout<D> old_layout_;
   BlockArray<Node<Real, D>, D> grid_, other_grid_;
   Outboxes<Real, D> outboxes_;
+  std::vector<LineSet> lines_, new_lines_;  // by block with particles: of its outbox, now and after the pass
   std::vector<StepEffect<Real, D>> effects_;
   std::vector<StillCollider<Real, D>> still_;
   std::vector<MaterialReport> reports_, block_reports_;  // block_reports_: block by block, then by batch

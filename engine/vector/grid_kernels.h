@@ -2,12 +2,20 @@
 // velocity, and how fast a particle may become.
 #pragma once
 
+#include <utility>
+
 #include "engine/vector/tile_stencil.h"
 
 namespace firn::FIRN_ISA {
 
-/// Four nodes along the last axis, added up from the three outboxes that reach them there: what is for the
-/// block above stands at 0, the outbox's own nodes at 1 to 4, what is for the block below at 5 to 7.
+/// The nodes of a block, of the four along an axis, that the outbox of the block before it, its own and that
+/// of the block after it reach, and where that outbox keeps node n: at n + place.
+struct Reach {
+  int first, last, place;
+};
+constexpr Reach kReach[3] = {{0, 3, 5}, {0, 4, 1}, {3, 4, -3}};
+
+/// Four nodes along the last axis.
 template <class Real>
 struct NodeLine {
   Quad<Real> sum[kBlockEdge];
@@ -15,10 +23,11 @@ struct NodeLine {
   HWY_INLINE NodeLine() {
     for (auto& q : sum) q = Quad<Real>::all(Real(0));
   }
-  HWY_INLINE void add(const Real* lower, const Real* own, const Real* upper) {
-    for (int n = 0; n < 3; ++n) sum[n] = sum[n] + Quad<Real>::load(lower + (5 + n) * kQuad);
-    for (int n = 0; n < 4; ++n) sum[n] = sum[n] + Quad<Real>::load(own + (1 + n) * kQuad);
-    sum[3] = sum[3] + Quad<Real>::load(upper);
+  /// What the outbox `source` along the axis, whose line this is, holds for them.
+  template <int source>
+  HWY_INLINE void add(const Real* line) {
+    constexpr Reach z = kReach[source];
+    for (int n = z.first; n < z.last; ++n) sum[n] = sum[n] + Quad<Real>::load(line + (n + z.place) * kQuad);
   }
   HWY_INLINE void store(Real* nodes) const {
     for (int n = 0; n < kBlockEdge; ++n) sum[n].store(nodes + n * kQuad);
@@ -30,28 +39,55 @@ struct NodeLine<float> {
   using Tag = hn::FixedTag<float, 16>;
   hn::Vec<Tag> sum = hn::Zero(Tag());
 
-  HWY_INLINE void add(const float* lower, const float* own, const float* upper) {
+  template <int source>
+  HWY_INLINE void add(const float* line) {
     const auto three = hn::FirstN(Tag(), 3 * kQuad);
-    sum = hn::Add(sum, hn::LoadU(Tag(), own + kQuad));
-    sum = hn::Add(sum, hn::MaskedLoad(three, Tag(), lower + 5 * kQuad));
-    sum = hn::Add(sum, hn::MaskedLoad(hn::Not(three), Tag(), upper - 3 * kQuad));
+    const float* const p = line + kReach[source].place * kQuad;
+    if constexpr (source == 0) sum = hn::Add(sum, hn::MaskedLoad(three, Tag(), p));
+    if constexpr (source == 1) sum = hn::Add(sum, hn::LoadU(Tag(), p));
+    if constexpr (source == 2) sum = hn::Add(sum, hn::MaskedLoad(hn::Not(three), Tag(), p));
   }
   HWY_INLINE void store(float* nodes) const { hn::StoreU(sum, Tag(), nodes); }
 };
 #endif
 
-/// The two outboxes along an axis that reach node `n` of the block, and where they keep it.
-struct Reach {
-  int source[2], place[2];
-};
-HWY_INLINE Reach reach(int n) {
-  return n < 3 ? Reach{{0, 1}, {5 + n, 1 + n}} : Reach{{1, 2}, {1 + n, 0}};
+// How the outbox that is `source` of the 3^D around a block reaches it along the axes before the last, and
+// where it keeps the line (i, j) of the block; in 2D there is no second axis.
+template <int D>
+constexpr Reach reach_x(int source) {
+  return kReach[D == 3 ? source / 9 : source / 3];
+}
+template <int D>
+constexpr Reach reach_y(int source) {
+  return D == 3 ? kReach[source / 3 % 3] : Reach{0, 1, 0};
+}
+template <int D>
+constexpr int outbox_line(Reach x, Reach y, int i, int j) {
+  return D == 3 ? (i + x.place) * kScratchEdge + j + y.place : i + x.place;
+}
+template <int D>
+constexpr LineSet needed_lines(int source) {
+  const Reach x = reach_x<D>(source), y = reach_y<D>(source);
+  LineSet out = 0;
+  for (int i = x.first; i < x.last; ++i)
+    for (int j = y.first; j < y.last; ++j) out |= LineSet{1} << outbox_line<D>(x, y, i, j);
+  return out;
 }
 
-/// A line of an outbox, two cache lines in float.
-template <class Real>
-HWY_INLINE void prefetch_line(const Real* line) {
-  prefetch<3>(line, 2 * kBlockEdge * kQuad * sizeof(Real));
+/// What a block needs of an outbox when that is `source` of the 3^D around it: calls f with the number of
+/// each of the block's lines and the line of the outbox for it, zeros where that holds nothing.
+template <class Real, int D, int source, class F>
+HWY_INLINE void for_each_line(const OutboxView<Real>& outbox, F&& f) {
+  constexpr int kLine = kScratchEdge * kQuad, kLines = D == 3 ? kBlockEdge : 1;  // of the block, in a plane
+  constexpr Reach x = reach_x<D>(source), y = reach_y<D>(source);
+  constexpr LineSet needed = needed_lines<D>(source);
+  alignas(64) static constexpr Real kZeros[kLine] = {};
+  if ((outbox.lines & needed) == 0) return;
+  for (int i = x.first; i < x.last; ++i)
+    for (int j = y.first; j < y.last; ++j) {
+      const int n = outbox_line<D>(x, y, i, j);
+      f(i * kLines + j, outbox.lines >> n & 1 ? outbox.nodes + n * kLine : kZeros);
+    }
 }
 
 /// The momentum of each node divided by its mass. A weight so small that the mass underflows to zero carries
@@ -71,25 +107,22 @@ HWY_INLINE bool to_velocity(Real* nodes) {
   return largest(heaviest) > Real(0);
 }
 
-template <class Real, int D>
-bool collect(const OutboxPointers<Real, D>& outboxes, const OutboxPointers<Real, D>& next, Real* nodes) {
-  constexpr int kEdge = 2 * kBlockEdge, kLine = kEdge * kQuad;
-  Real* line = nodes;
-  for (int i = 0; i < kBlockEdge; ++i) {
-    const Reach x = reach(i);
-    for (int j = 0; j < (D == 3 ? kBlockEdge : 1); ++j, line += kBlockEdge * kQuad) {
-      const Reach y = D == 3 ? reach(j) : Reach{{0, 0}, {0, 0}};
-      NodeLine<Real> sum;
-      for (int a = 0; a < 2; ++a)
-        for (int b = 0; b < (D == 3 ? 2 : 1); ++b) {
-          const int first = D == 3 ? (x.source[a] * 3 + y.source[b]) * 3 : x.source[a] * 3;
-          const int at = (D == 3 ? x.place[a] * kEdge + y.place[b] : x.place[a]) * kLine;
-          const Real* const* box = outboxes.data() + first;
-          sum.add(box[0] + at, box[1] + at, box[2] + at);
-          prefetch_line(next[static_cast<std::size_t>(first + 2)] + at);
-        }
-      sum.store(line);
-    }
+template <class Real, int D, int... source>
+HWY_INLINE bool collect_from(const OutboxViews<Real, D>& outboxes, const OutboxViews<Real, D>& next,
+                             Real* nodes, std::integer_sequence<int, source...>) {
+  // What the next block needs and this one does not: the third of the outboxes along the last axis.
+  const auto fetch = [](int, const Real* line) { prefetch<3>(line, kScratchEdge * kQuad * sizeof(Real)); };
+  ((source % 3 == 2 ? for_each_line<Real, D, source>(next[source], fetch) : void()), ...);
+
+  if (((outboxes[source].lines & needed_lines<D>(source)) | ...) == 0) return false;
+  NodeLine<Real> lines[kBlockNodes<D> / kBlockEdge];
+  (for_each_line<Real, D, source>(
+       outboxes[source], [&](int k, const Real* line) HWY_ATTR { lines[k].template add<source % 3>(line); }),
+   ...);
+  Real* out = nodes;
+  for (const NodeLine<Real>& line : lines) {
+    line.store(out);
+    out += kBlockEdge * kQuad;
   }
   return to_velocity<Real, D>(nodes);
 }
@@ -116,6 +149,11 @@ SpeedBound speed_bound(const Real* nodes, Real lightest) {
   }
   if (any(!(finite == L(0)))) return {std::numeric_limits<double>::infinity(), 0};
   return {static_cast<double>(largest(heavy)), static_cast<double>(largest(light))};
+}
+
+template <class Real, int D>
+bool collect(const OutboxViews<Real, D>& outboxes, const OutboxViews<Real, D>& next, Real* nodes) {
+  return collect_from<Real, D>(outboxes, next, nodes, std::make_integer_sequence<int, kNeighbours<D>>());
 }
 
 template <class Real, int D>

@@ -24,6 +24,12 @@ inline constexpr int kNodeReals = 4;  // velocity (2D: its third place is the ma
 template <int D>
 inline constexpr int kOutboxNodes = power(2 * kBlockEdge, D);
 
+/// Which lines along the last axis of the 8^D nodes around a block its particles touch, a bit each. Right
+/// after a sort that is at most half of them, and what nobody touches is neither written nor read.
+using LineSet = std::uint64_t;
+template <int D>
+inline constexpr LineSet kAllLines = ~LineSet{0} >> (64 - power(2 * kBlockEdge, D - 1));
+
 /// Where a column begins in one tile, or in the whole table; null for a column that the table does not have.
 template <class Real>
 using ColumnPointers = std::array<Real*, kColumnCount>;
@@ -53,10 +59,13 @@ struct BlockTask {
   BlockCoord<D> block;
   std::array<const Real*, kNeighbours<D>> velocities;       // of each grid block: 4^D nodes of kNodeReals
   std::array<const Real*, kNeighbours<D>> next_velocities;  // of the block that is likely to come next
+  LineSet lines, next_lines;                                // that their particles touch before they move
   Real* outbox;                                             // 8^D nodes of kNodeReals
   Real h;                                                   // m
   Real dt;                                                  // s, of the step that ends
   Real next;  // s, of the step that begins: its forces are scattered
+  // The answer.
+  LineSet touched;  // lines of the outbox that hold something; the others are not written
   Motion motion;
 };
 
@@ -70,15 +79,22 @@ struct TransferKernels {
   Kernel adjust;  // adds the forces of a further `next` (negative: takes back) to the outbox
 };
 
-/// The outboxes of the 3^D blocks around a block of the grid; all zeros for a block without particles.
+/// What the particles of a block give to the grid; no lines for a block without particles.
+template <class Real>
+struct OutboxView {
+  const Real* nodes = nullptr;
+  LineSet lines = 0;
+};
+/// Of the 3^D blocks around a block of the grid.
 template <class Real, int D>
-using OutboxPointers = std::array<const Real*, kNeighbours<D>>;
+using OutboxViews = std::array<OutboxView<Real>, kNeighbours<D>>;
 
 template <class Real, int D>
 struct GridKernels {
-  /// The velocities and masses of one block, 4^D nodes of kNodeReals; false when no node is in use. A node's
-  /// sum has a fixed order of 2^D terms. `next`: of the block that is likely to come next.
-  bool (*collect)(const OutboxPointers<Real, D>& outboxes, const OutboxPointers<Real, D>& next, Real* nodes);
+  /// The velocities and masses of one block, 4^D nodes of kNodeReals; false when no node is in use, and where
+  /// no outbox reaches the block they are left as they were. A node's sum has a fixed order of 2^D terms.
+  /// `next`: of the block that is likely to come next.
+  bool (*collect)(const OutboxViews<Real, D>& outboxes, const OutboxViews<Real, D>& next, Real* nodes);
   SpeedBound (*speed_bound)(const Real* nodes, Real lightest);
 };
 

@@ -3,11 +3,14 @@
 // lanes hold sixteen particles for what is per particle, rows hold one particle's nodes for what is per node.
 #pragma once
 
+#include "engine/base/bits.h"
 #include "engine/base/tick_clock.h"
 #include "engine/passes/transfer.h"
 #include "engine/vector/row_kernels.h"
 
 namespace firn::FIRN_ISA {
+
+inline constexpr int kLineReals = kScratchEdge * kQuad;  // of a line of the scratch or of an outbox
 
 /// What passes from stage to stage of one tile.
 template <class Real, int D, class Transfer>
@@ -111,7 +114,7 @@ HWY_INLINE void gather_tile(const BlockTask<Real, D>& task, const TileView<Real,
 /// Momentum and the impulse of the stress over `dt`, with `motion` false the impulse alone.
 template <class Real, int D, class Transfer, bool motion>
 HWY_INLINE void scatter_tile(const BlockTask<Real, D>& task, const TileView<Real, D>& tile, int n,
-                             TileWork<Real, D, Transfer>& work, Real* nodes) {
+                             TileWork<Real, D, Transfer>& work, Real* nodes, LineSet& lines) {
   using L = Lane<Real>;
   using Work = TileWork<Real, D, Transfer>;
   using In = typename Work::Gathered;
@@ -140,8 +143,11 @@ HWY_INLINE void scatter_tile(const BlockTask<Real, D>& task, const TileView<Real
     }
     store_quads(b[0], b[1], D == 3 ? b[D - 1] : m, D == 3 ? m : zero, work.record[0] + at * kQuad);
   }
-  for (int p = 0; p < n; ++p)
+  constexpr LineSet kTouched = D == 3 ? 0x070707 : 7;  // from a particle's first line on
+  for (int p = 0; p < n; ++p) {
     scatter_rows<Real, D, Transfer::affine, Work::kGradient>(work.stencil, work.record, p, nodes);
+    lines |= kTouched << work.stencil.first[p] / kLineReals;
+  }
 }
 
 /// What a pass does with each tile.
@@ -207,7 +213,7 @@ class PartialTile {
 template <class Real, int D, class Transfer, Stages stages>
 HWY_INLINE void run_tile(const BlockTask<Real, D>& task, const BatchTask<Real>& batch,
                          const ColumnPointers<Real>& columns, int n, const Real* in, Real* out,
-                         TileWork<Real, D, Transfer>& work, LaneMotion<Real>& motion) {
+                         TileWork<Real, D, Transfer>& work, LaneMotion<Real>& motion, LineSet& lines) {
   using L = Lane<Real>;
   constexpr bool gathers = stages == Stages::fused || stages == Stages::finish;
   constexpr bool scatters = stages != Stages::finish;
@@ -235,7 +241,7 @@ HWY_INLINE void run_tile(const BlockTask<Real, D>& task, const BatchTask<Real>& 
           L::load(work.tau[c] + at).store(tile.at(Column::stress, c) + at);
     }
   if constexpr (scatters) {
-    scatter_tile<Real, D, Transfer, stages != Stages::adjust>(task, tile, n, work, out);
+    scatter_tile<Real, D, Transfer, stages != Stages::adjust>(task, tile, n, work, out, lines);
     clock.lap(kTransferPart);
   }
 }
@@ -266,15 +272,22 @@ HWY_INLINE ScratchLine scratch_line(int n) {
   const int i = n / kScratchEdge + 3, j = n % kScratchEdge + 3;
   return {(i / 4 * 3 + j / 4) * 3, i % 4 * kBlockEdge + j % 4};
 }
-template <int D>
-inline constexpr int kScratchLines = power(kScratchEdge, D - 1);
 
 template <class Real, int D>
 HWY_INLINE void load_scratch(const BlockTask<Real, D>& task, Real* scratch) {
-  for (int n = 0; n < kScratchLines<D>; ++n, scratch += kScratchEdge * kQuad) {
-    const ScratchLine from = scratch_line<D>(n);
-    load_line(task.velocities.data() + from.blocks, from.line, scratch);
-  }
+  for_each_bit(task.lines, [&](std::size_t n) HWY_ATTR {
+    const ScratchLine from = scratch_line<D>(static_cast<int>(n));
+    Real* const line = scratch + n * kLineReals;
+    load_line(task.velocities.data() + from.blocks, from.line, line);
+    // A row may reach one node beyond its line, without weight; what lies there must be a number.
+    Quad<Real>::all(Real(0)).store(line + kLineReals);
+  });
+}
+
+template <class Real>
+HWY_INLINE void copy_lines(LineSet lines, const Real* from, Real* to) {
+  for_each_bit(lines, [&](std::size_t n)
+                          HWY_ATTR { copy_numbers<kLineReals>(from + n * kLineReals, to + n * kLineReals); });
 }
 
 /// The columns of the tile behind this one. The last tile's asks for what is not there, which does nothing.
@@ -294,29 +307,44 @@ HWY_INLINE void prefetch_next(const ColumnPointers<Real>& tile) {
 template <class Real, int D, Stages stages>
 class Prefetcher {
  public:
-  HWY_INLINE explicit Prefetcher(const BlockTask<Real, D>& task) : task_(task) {}
+  explicit HWY_INLINE Prefetcher(const BlockTask<Real, D>& task)
+      : task_(task), outbox_(task.lines), next_(task.next_lines) {
+    std::size_t tiles = 1;
+    for (const BatchTask<Real>& batch : task.batches) tiles += (batch.last - batch.first) / kTile;
+    at_a_time_ = 1 + std::popcount(outbox_ | next_) / static_cast<int>(tiles);
+  }
   HWY_INLINE void fetch_some() {
-    constexpr int kAtATime = D == 3 ? 2 : 1, kLine = kScratchEdge * kQuad;
-    for (int k = 0; k < kAtATime && line_ < kScratchLines<D>; ++k, ++line_) {
-      if constexpr (stages != Stages::finish) prefetch<2>(task_.outbox + line_ * kLine, kLine * sizeof(Real));
-      if constexpr (stages == Stages::fused || stages == Stages::finish) {
-        const ScratchLine next = scratch_line<D>(line_);
-        prefetch<2>(
-            task_.next_velocities[static_cast<std::size_t>(next.blocks + 2)] + next.line * kBlockEdge * kQuad,
-            kBlockEdge * kQuad * sizeof(Real));
-      }
+    for (int k = 0; k < at_a_time_; ++k) {
+      if constexpr (stages != Stages::finish)
+        if (outbox_ != 0)
+          prefetch<2>(task_.outbox + take_line(outbox_) * kLineReals, kLineReals * sizeof(Real));
+      if constexpr (stages == Stages::fused || stages == Stages::finish)
+        if (next_ != 0) {
+          const ScratchLine next = scratch_line<D>(take_line(next_));
+          prefetch<2>(task_.next_velocities[static_cast<std::size_t>(next.blocks + 2)] +
+                          next.line * kBlockEdge * kQuad,
+                      kBlockEdge * kQuad * sizeof(Real));
+        }
     }
   }
 
  private:
+  static HWY_INLINE int take_line(LineSet& set) {
+    const int n = std::countr_zero(set);
+    set &= set - 1;
+    return n;
+  }
+
   const BlockTask<Real, D>& task_;
-  int line_ = 0;
+  LineSet outbox_, next_;  // still to be fetched; the outbox's of the last step stand for this one's
+  int at_a_time_;
 };
 
 template <class Real, int D, class Transfer, Stages stages>
 HWY_INLINE void run_tiles(BlockTask<Real, D>& task, const Real* in, Real* out) {
   TileWork<Real, D, Transfer> work;
   LaneMotion<Real> motion;
+  LineSet lines = 0;
   Prefetcher<Real, D, stages> prefetcher(task);
   for (const BatchTask<Real>& batch : task.batches)
     for (std::size_t first = batch.first; first < batch.last;) {
@@ -332,11 +360,12 @@ HWY_INLINE void run_tiles(BlockTask<Real, D>& task, const Real* in, Real* out) {
       prefetch_next<Real, D, stages>(columns);
       prefetcher.fetch_some();
       if (last - first == kTile) {
-        run_tile<Real, D, Transfer, stages>(task, batch, columns, kTileSize, in, out, work, motion);
+        run_tile<Real, D, Transfer, stages>(task, batch, columns, kTileSize, in, out, work, motion, lines);
       } else {
         PartialTile<Real, D, stages> part(columns, static_cast<int>(first - tile_first),
                                           static_cast<int>(last - tile_first));
-        run_tile<Real, D, Transfer, stages>(task, batch, part.columns(), part.count(), in, out, work, motion);
+        run_tile<Real, D, Transfer, stages>(task, batch, part.columns(), part.count(), in, out, work, motion,
+                                            lines);
         part.write_back();
       }
       first = last;
@@ -344,6 +373,7 @@ HWY_INLINE void run_tiles(BlockTask<Real, D>& task, const Real* in, Real* out) {
   task.motion.max_speed = std::sqrt(static_cast<double>(largest(motion.speed2)));
   task.motion.max_displacement = static_cast<double>(largest(motion.displacement));
   task.motion.invalid = motion.invalid;
+  task.touched = lines;
 }
 
 template <class Real, int D, class Transfer, Stages stages>
@@ -351,16 +381,11 @@ void run_block(BlockTask<Real, D>& task) {
   constexpr int kReals = kOutboxNodes<D> * kQuad;
   // A row of the last line reaches one node beyond it.
   alignas(64) Real in[kReals + kQuad], out[kReals + kQuad];
-  if constexpr (stages == Stages::fused || stages == Stages::finish) {
-    load_scratch(task, in);
-    for (int i = 0; i < kQuad; ++i) in[kReals + i] = 0;
-  }
-  if constexpr (stages == Stages::adjust)
-    copy_numbers<kReals>(task.outbox, out);
-  else if constexpr (stages != Stages::finish)
-    fill_zero<kReals>(out);
+  if constexpr (stages == Stages::fused || stages == Stages::finish) load_scratch(task, in);
+  if constexpr (stages != Stages::finish) fill_zero<kReals>(out);
+  if constexpr (stages == Stages::adjust) copy_lines(task.lines, task.outbox, out);
   run_tiles<Real, D, Transfer, stages>(task, in, out);
-  if constexpr (stages != Stages::finish) copy_numbers<kReals>(out, task.outbox);
+  if constexpr (stages != Stages::finish) copy_lines(task.touched, out, task.outbox);
 }
 
 template <class Real, int D, class Transfer>
