@@ -1,6 +1,8 @@
 // The particles of one material and where each block's share of them begins.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <span>
 #include <utility>
 #include <vector>
@@ -30,6 +32,15 @@ struct GridNodes {
       before;  // momentum, then velocity, without this step's forces: increments only
 };
 
+/// Half the edge of a particle that had `volume` at rest, in cells; 0 where the kernel does not ask. A
+/// particle is taken to be a cube, and to be a cell at most.
+template <class Kernel, class Real, int D>
+Real particle_size(Real volume, Real inverse_h) {
+  if constexpr (!Kernel::sized) return Real(0);
+  const Real edge = D == 1 ? volume : D == 2 ? std::sqrt(volume) : std::cbrt(volume);
+  return std::min(Real(0.5) * edge * inverse_h, Real(0.5));
+}
+
 /// A particle's kernel in the scratch of its block.
 template <class Kernel, class Real, int D>
 struct Stencil {
@@ -37,12 +48,13 @@ struct Stencil {
   Vector<Real, D> f;                               // x/h - first node
   int first = 0;                                   // scratch index of the first node
 
-  Stencil(const Vector<Real, D>& x, Real inverse_h, const BlockCoord<D>& block) {
+  /// `size`: half the particle's edge, in cells.
+  Stencil(const Vector<Real, D>& x, Real size, Real inverse_h, const BlockCoord<D>& block) {
     for (int d = 0; d < D; ++d) {
       const Real cell = x[d] * inverse_h;
-      const Real base = std::floor(cell - Real(Kernel::first_node_offset));
+      const Real base = Kernel::first_node(cell, size);
       f[d] = cell - base;
-      Kernel::weights(f[d], w[d], dw[d]);
+      Kernel::weights(f[d], size, w[d], dw[d]);
       first = first * Scratch<int, D>::kEdge + static_cast<int>(base) -
               block[static_cast<std::size_t>(d)] * kBlockEdge + 1;
     }

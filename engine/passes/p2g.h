@@ -26,10 +26,12 @@ void scatter(const ParticleTable<Real, D>& particles, std::pair<std::size_t, std
   const auto volume = particles.template view<Column::volume>();
   const auto stress = particles.template view<Column::stress>();
   for (std::size_t p = range.first; p < range.second; ++p) {
-    const Stencil<Kernel, Real, D> stencil(position.load(p), Real(1) / h, block);
+    const Real V0 = volume.load(p);
+    const Stencil<Kernel, Real, D> stencil(position.load(p), particle_size<Kernel, Real, D>(V0, Real(1) / h),
+                                           Real(1) / h, block);
     const Real m = mass.load(p);
     const Vector<Real, D> momentum = m * velocity.load(p);
-    const Matrix<Real, D> impulse = (-dt * volume.load(p) / h) * stress.load(p);
+    const Matrix<Real, D> impulse = (-dt * V0 / h) * stress.load(p);
     Matrix<Real, D> affine_momentum;
     if constexpr (Transfer::affine)
       affine_momentum = (m * h) * particles.template view<Column::affine>().load(p);

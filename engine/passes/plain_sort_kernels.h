@@ -15,7 +15,7 @@ void plain_cell_keys(const Real* position, std::size_t n, Real inverse_h, std::u
     std::array<std::int32_t, D> cell;
     for (std::size_t d = 0; d < D; ++d)
       cell[d] = static_cast<std::int32_t>(
-          std::floor(position[d * kTile + i] * inverse_h - Real(Kernel::first_node_offset)));
+          std::floor(position[d * kTile + i] * inverse_h - Real(Kernel::sort_offset)));
     keys[i] = cell_key<D>(cell);
   }
 }

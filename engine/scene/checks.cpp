@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "engine/base/nearest_name.h"
+#include "engine/scene/fields.h"
 #include "engine/scene/table_reader.h"
 
 namespace firn {
@@ -123,6 +124,15 @@ void check(TableReader& reader, const SimulationDescription& d) {
   if (reader.good({"dimension"})) reader.context().dimension = d.dimension;
   if (d.flip_ratio && d.transfer != Transfer::flip && reader.good({"transfer"})) {
     reader.report("flip_ratio", "found a ratio; allowed: none, for transfer is not \"flip\"");
+  }
+  const bool affine = d.transfer == Transfer::apic || d.transfer == Transfer::mls;
+  const bool varies = d.kernel == KernelName::linear || d.kernel == KernelName::gimp;
+  if (affine && varies && reader.good({"kernel", "transfer"})) {
+    reader.report("kernel",
+                  fmt::format("found '{}' with transfer '{}'; allowed: 'quadratic' and 'cubic', or transfer "
+                              "'flip' or 'pic': an affine velocity takes sum S (x_i - x_p)^2 to be the same "
+                              "wherever the particle is",
+                              word_of(kKernels, d.kernel), word_of(kTransfers, d.transfer)));
   }
 }
 

@@ -113,7 +113,11 @@ struct DomainDescription {
   double friction = 0;
 };
 
+enum class KernelName { linear, gimp, quadratic, cubic };
 enum class Transfer { pic, flip, apic, mls };
+/// When F and with it the stress are brought up to date: before the step's forces, after the particles have
+/// moved, or after that from their new velocities on the grid.
+enum class StressOrder { usf, usl, musl };
 enum class Precision { single, double_ };
 enum class PathChoice { automatic, plain };
 
@@ -122,12 +126,15 @@ struct SimulationDescription {
   double cell_size = 0;  // m
   double duration = 0;   // s
   double frame_rate = 24;
+  KernelName kernel = KernelName::quadratic;
   Transfer transfer = Transfer::apic;
   std::optional<double> flip_ratio;  // flip only; 0 is PIC, 1 keeps every increment
+  StressOrder stress_order = StressOrder::usl;
   Precision precision = Precision::single;
   PathChoice path = PathChoice::automatic;
   double cfl = 0.4;
-  std::optional<double> max_dt;  // s
+  std::optional<double> max_dt;       // s
+  std::optional<double> mass_cutoff;  // parts of the lightest particle's mass; see mass_cutoff() in plan.h
   std::uint64_t seed = 1;
 };
 

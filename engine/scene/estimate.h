@@ -29,6 +29,7 @@ struct Estimate {
 struct StepCost {
   double transfers = 0, plain_energy = 0, decomposition = 0;
 };
+/// With the quadratic kernel and USL.
 StepCost step_cost(const PathPlan& path, int dimension, Precision precision);
 
 Estimate estimate(const Plan& plan);

@@ -58,6 +58,12 @@ struct Choice {
   std::string_view meaning;
 };
 
+/// What a scene writes for `value`, which is among the choices.
+template <class E, std::size_t n>
+constexpr std::string_view word_of(const std::array<Choice<E>, n>& choices, E value) {
+  return std::find_if(choices.begin(), choices.end(), [&](const auto& c) { return c.value == value; })->word;
+}
+
 /// What a vector's components stand for: a rotation in a plane scene turns about z, a position has no z
 /// there.
 enum class Axes { along, about };

@@ -11,6 +11,18 @@
 
 namespace firn {
 
+inline constexpr std::array<Choice<KernelName>, 4> kKernels = {{
+    {"quadratic", KernelName::quadratic, "B-spline over 3 nodes an axis: the fast path"},
+    {"cubic", KernelName::cubic, "B-spline over 4 nodes: smoother, slower"},
+    {"linear", KernelName::linear,
+     "2 nodes: the original, noisy where particles cross cells; flip and pic only"},
+    {"gimp", KernelName::gimp, "the linear one averaged over the particle; flip and pic only"},
+}};
+inline constexpr std::array<Choice<StressOrder>, 3> kStressOrders = {{
+    {"usl", StressOrder::usl, "after the particles have moved: damps a little"},
+    {"usf", StressOrder::usf, "before the forces: keeps energy"},
+    {"musl", StressOrder::musl, "after, from the new velocities put on the grid once more"},
+}};
 inline constexpr std::array<Choice<Transfer>, 4> kTransfers = {{
     {"apic", Transfer::apic, "affine: keeps angular momentum, quiet"},
     {"mls", Transfer::mls, "APIC with forces from its moments: fastest"},
@@ -52,16 +64,23 @@ void fields(V& v, SimulationDescription& d) {
   v.real({"cell_size", required, "edge of a grid cell", "m"}, d.cell_size, kPositive);
   v.real({"duration", required, "simulated time", "s"}, d.duration, kPositive);
   v.real({"frame_rate", optional, "frames per simulated second", "1/s"}, d.frame_rate, kPositive);
+  v.choice({"kernel", optional, "shape function of a grid node"}, d.kernel, kKernels);
   v.choice({"transfer", optional, "how velocity goes from the grid to the particles"}, d.transfer,
            kTransfers);
   v.real({"flip_ratio", optional,
           "with transfer \"flip\" only: 0 is PIC, 1 keeps every increment; 0.99 if left out", "-", "0.99"},
          d.flip_ratio, kFraction);
+  v.choice({"stress_order", optional, "when in a step the stress is updated"}, d.stress_order, kStressOrders);
   v.choice({"precision", optional, "of the particles and the grid"}, d.precision, kPrecisions);
   v.choice({"path", optional, "of computation"}, d.path, kPaths);
   v.real({"cfl", optional, "time step as a part of the largest explicit one"}, d.cfl,
          {.min = 0, .max = 1, .min_open = true});
   v.real({"max_dt", optional, "longest time step", "s", "1e-3"}, d.max_dt, kPositive);
+  v.real({"mass_cutoff", optional,
+          "nodes lighter than so many particles are ignored, with their momentum; if left out 1e-4 with kernel "
+          "\"linear\" and stress_order \"usl\", else 0",
+          "-", "1e-4"},
+         d.mass_cutoff, kFraction);
   v.integer({"seed", optional, "of every random number"}, d.seed, {0});
 }
 

@@ -31,7 +31,10 @@ ColumnSet transfer_columns(Transfer transfer) {
 PathPlan plan_path(const SimulationDescription& s) {
   if (s.path == PathChoice::plain) return {{}, "simulation.path = \"plain\""};
   if (s.dimension == 1) return {{}, "the vectorised path has no 1D"};
+  if (s.kernel != KernelName::quadratic) return {{}, "the vectorised path has the quadratic kernel only"};
+  if (s.stress_order != StressOrder::usl) return {{}, "the vectorised path has stress_order \"usl\" only"};
   if (s.transfer == Transfer::flip) return {{}, "FLIP needs every particle's velocity in every step"};
+  if (mass_cutoff(s) > 0) return {{}, "the vectorised path ignores no node"};
   const std::optional<Isa> isa = best_isa();
   if (!isa) return {{}, "the processor has no SSE4, or FIRN_ISA = none"};
   return {isa, std::getenv("FIRN_ISA") != nullptr ? "FIRN_ISA" : "the widest registers of this processor"};

@@ -5,19 +5,35 @@
 
 namespace firn {
 
+/// Transfers with an affine velocity need a kernel that supports one; the plan has seen to it.
+template <class Real, int D, class Kernel>
+std::unique_ptr<Simulation> make_with_kernel(const Plan& plan, std::span<const Seeds> seeds) {
+  const Transfer transfer = plan.scene.simulation.transfer;
+  if constexpr (Kernel::affine) {
+    if (transfer == Transfer::apic)
+      return std::make_unique<PlainSimulation<Real, D, Kernel, ApicTransfer>>(plan, seeds);
+    if (transfer == Transfer::mls)
+      return std::make_unique<PlainSimulation<Real, D, Kernel, MlsTransfer>>(plan, seeds);
+  }
+  if (transfer == Transfer::flip)
+    return std::make_unique<PlainSimulation<Real, D, Kernel, FlipTransfer>>(plan, seeds);
+  FIRN_CHECK(transfer == Transfer::pic);
+  return std::make_unique<PlainSimulation<Real, D, Kernel, PicTransfer>>(plan, seeds);
+}
+
 template <class Real, int D>
 std::unique_ptr<Simulation> make_plain(const Plan& plan, std::span<const Seeds> seeds) {
-  switch (plan.scene.simulation.transfer) {
-    case Transfer::pic:
-      return std::make_unique<PlainSimulation<Real, D, QuadraticKernel, PicTransfer>>(plan, seeds);
-    case Transfer::flip:
-      return std::make_unique<PlainSimulation<Real, D, QuadraticKernel, FlipTransfer>>(plan, seeds);
-    case Transfer::mls:
-      return std::make_unique<PlainSimulation<Real, D, QuadraticKernel, MlsTransfer>>(plan, seeds);
-    case Transfer::apic:
+  switch (plan.scene.simulation.kernel) {
+    case KernelName::linear:
+      return make_with_kernel<Real, D, LinearKernel>(plan, seeds);
+    case KernelName::gimp:
+      return make_with_kernel<Real, D, GimpKernel>(plan, seeds);
+    case KernelName::cubic:
+      return make_with_kernel<Real, D, CubicKernel>(plan, seeds);
+    case KernelName::quadratic:
       break;
   }
-  return std::make_unique<PlainSimulation<Real, D, QuadraticKernel, ApicTransfer>>(plan, seeds);
+  return make_with_kernel<Real, D, QuadraticKernel>(plan, seeds);
 }
 
 }  // namespace firn

@@ -31,7 +31,8 @@ class ParticleSimulation : public Simulation {
     out.time = time_;
     out.particles = count_;
     out.steps = std::exchange(steps_, {});
-    out.counters = {{kCounters[0], std::exchange(capped_, 0)}};
+    out.counters = {{kCounters[0], std::exchange(capped_, 0)},
+                    {kCounters[1], std::exchange(ignored_nodes_, 0)}};
     out.totals = all_totals();
     const std::span<const Batch<Real, D>> batches = batches_;
     out.copy_id = [batches](std::size_t first, std::span<std::int64_t> ids) {
@@ -54,11 +55,9 @@ class ParticleSimulation : public Simulation {
   const PassTimes& times() const override { return times_; }
 
  protected:
-  // A particle may leave its block by one cell; past that, its kernel would leave the block's scratch.
-  static constexpr double kFarthestDrift = 0.95;  // cells
-
-  ParticleSimulation(const Plan& plan, std::span<const Seeds> seeds)
-      : plan_(&plan), batches_(seed_batches<Real, D>(plan, seeds)) {
+  /// `inverse_inertia`: h^2 D_p^-1 of the kernel.
+  ParticleSimulation(const Plan& plan, std::span<const Seeds> seeds, double inverse_inertia)
+      : plan_(&plan), batches_(seed_batches<Real, D>(plan, seeds)), inverse_inertia_(inverse_inertia) {
     for (std::size_t b = 0; b < batches_.size(); ++b) count_ += batches_[b].particles.size();
     for (std::size_t b = 0; b < seeds.size(); ++b)
       max_speed_ = std::max(max_speed_, fastest(batches_[plan.bodies[b].batch]));
@@ -128,6 +127,14 @@ class ParticleSimulation : public Simulation {
     steps_.dt_min = steps_.steps == 1 ? dt : std::min(steps_.dt_min, dt);
     steps_.dt_max = std::max(steps_.dt_max, dt);
   }
+  /// Mass of the lightest particle, kg.
+  double lightest() const {
+    Real m = std::numeric_limits<Real>::max();
+    for (const auto& batch : batches_)
+      for (std::size_t p = 0; p < batch.particles.size(); ++p)
+        m = std::min(m, batch.particles.template view<Column::mass>().load(p));
+    return static_cast<double>(m);
+  }
   std::size_t table_bytes() const {
     std::size_t sum = 0;
     for (const auto& batch : batches_)
@@ -152,7 +159,7 @@ class ParticleSimulation : public Simulation {
   double drift_ = std::numeric_limits<double>::infinity();  // m since the last sort; nothing is sorted yet
   double max_speed_ = 0, collider_speed_ = 0, wave_speed_ = 0;
   double dissipated_ = 0;
-  std::int64_t capped_ = 0;
+  std::int64_t capped_ = 0, ignored_nodes_ = 0;
 
  private:
   static double fastest(const Batch<Real, D>& batch) {
@@ -180,8 +187,7 @@ class ParticleSimulation : public Simulation {
     for (std::size_t b = 0; b < batches_.size(); ++b)
       std::visit(
           [&](const auto& model) {
-            join(sum, totals(model, batches_[b].particles, plan_->cell_size(),
-                             QuadraticKernel::inverse_inertia, g));
+            join(sum, totals(model, batches_[b].particles, plan_->cell_size(), inverse_inertia_, g));
           },
           plan_->batches[b].law);
     sum.dissipated = dissipated_;
@@ -216,6 +222,7 @@ class ParticleSimulation : public Simulation {
   FrameSteps steps_;
   PassTimes times_;
   double frame_seconds_ = 0;
+  double inverse_inertia_;
 };
 
 }  // namespace firn

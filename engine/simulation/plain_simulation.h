@@ -16,33 +16,44 @@ class PlainSimulation final : public ParticleSimulation<Real, D> {
   using Base::batches_, Base::layout_, Base::plan_, Base::time_, Base::drift_, Base::timed;
 
  public:
-  PlainSimulation(const Plan& plan, std::span<const Seeds> seeds) : Base(plan, seeds) { run_materials(0); }
+  PlainSimulation(const Plan& plan, std::span<const Seeds> seeds) : Base(plan, seeds, inertia()) {
+    least_mass_ = static_cast<Real>(mass_cutoff(plan.scene.simulation) * this->lightest());
+    run_materials(0);
+  }
 
   void step(double dt, double) override {
-    const double h = plan_->cell_size();
-    const Real dt_real = static_cast<Real>(dt), h_real = static_cast<Real>(h);
-    const std::span<Batch<Real, D>> batches = batches_;
-    if (drift_ >= Base::kFarthestDrift * h) {
-      timed(PassTimes::sort, [&] { sorter_.sort(batches, h_real, layout_, ColumnSet::all()); });
+    if (drift_ >= Kernel::farthest_drift * plan_->cell_size()) {
+      timed(PassTimes::sort, [&] { sorter_.sort(batches_, cell_size(), layout_, ColumnSet::all()); });
       drift_ = 0;
       ++this->sorts_;
     }
-    timed(PassTimes::p2g, [&] {
-      p2g<Kernel, Transfer, Real, D>(std::span<const Batch<Real, D>>(batches), layout_, h_real, dt_real,
-                                     grid_);
-    });
-    timed(PassTimes::grid, [&] {
-      effects_at<Real, D>(plan_->effects, time_ + dt, {}, effects_);
-      grid_update<Transfer, Real, D>(layout_, h, dt, effects_, grid_);
-    });
+    effects_at<Real, D>(plan_->effects, time_ + dt, {}, effects_);
     Motion motion;
-    timed(PassTimes::g2p, [&] {
-      const Real ratio = static_cast<Real>(plan_->scene.simulation.flip_ratio.value_or(kDefaultFlipRatio));
-      motion = g2p<Kernel, Transfer, Real, D>(batches, layout_, h_real, dt_real, ratio, grid_);
-    });
+    switch (plan_->scene.simulation.stress_order) {
+      case StressOrder::usl:
+        project(dt);
+        gather<kGatherAll>(dt, motion);
+        break;
+      case StressOrder::usf:
+        project(0);
+        gather<Gathered{.deformation = true}>(dt, motion);
+        run_materials(dt);
+        project(dt);
+        gather<Gathered{.velocity = true, .position = true}>(dt, motion);
+        break;
+      case StressOrder::musl:
+        project(dt);
+        gather<Gathered{.velocity = true}>(dt, motion);
+        std::swap(grid_, moved_);
+        project(0);
+        gather<Gathered{.deformation = true}>(dt, motion);
+        std::swap(grid_, moved_);
+        gather<Gathered{.position = true}>(dt, motion);
+        break;
+    }
     time_ += dt;
     this->take(motion);
-    timed(PassTimes::material, [&] { run_materials(dt_real); });
+    if (plan_->scene.simulation.stress_order != StressOrder::usf) run_materials(dt);
     this->count_step(dt);
   }
   void shorten(double) override {}  // each step puts its own forces on the grid
@@ -55,22 +66,54 @@ class PlainSimulation final : public ParticleSimulation<Real, D> {
                    "p2g, g2p",
                    this->seconds(PassTimes::p2g) + this->seconds(PassTimes::g2p),
                    Base::column_bytes({Column::velocity, Column::affine})});
-    out.push_back({"grid",
-                   {},
-                   "grid",
-                   this->seconds(PassTimes::grid),
-                   grid_.nodes.bytes() + grid_.before.bytes() + layout_.bytes()});
+    out.push_back({"grid", {}, "grid", this->seconds(PassTimes::grid), grid_bytes() + layout_.bytes()});
     Base::add_materials(material_seconds_, "material", out);
     return out;
   }
 
   std::size_t bytes() const override {
-    return this->table_bytes() + grid_.nodes.bytes() + grid_.before.bytes() + layout_.bytes() +
-           sorter_.bytes();
+    return this->table_bytes() + grid_bytes() + layout_.bytes() + sorter_.bytes();
   }
 
  private:
-  void run_materials(Real dt) {
+  static constexpr double inertia() {
+    if constexpr (Kernel::affine) return Kernel::inverse_inertia;
+    return 1;  // no affine velocity, so nobody asks
+  }
+  std::size_t grid_bytes() const {
+    return grid_.nodes.bytes() + grid_.before.bytes() + moved_.nodes.bytes() + moved_.before.bytes();
+  }
+  Real cell_size() const { return static_cast<Real>(plan_->cell_size()); }
+
+  /// The particles' momentum on the grid, and on top of it the forces and effects of `dt`.
+  void project(double dt) {
+    timed(PassTimes::p2g, [&] {
+      p2g<Kernel, Transfer, Real, D>(std::span<const Batch<Real, D>>(batches_), layout_, cell_size(),
+                                     static_cast<Real>(dt), grid_);
+    });
+    timed(PassTimes::grid, [&] {
+      const std::span<const StepEffect<Real, D>> effects = effects_;
+      this->ignored_nodes_ +=
+          grid_update<Transfer, Real, D>(layout_, plan_->cell_size(), dt, effects, least_mass_, grid_);
+    });
+  }
+
+  template <Gathered what>
+  void gather(double dt, Motion& motion) {
+    timed(PassTimes::g2p, [&] {
+      const Real ratio = static_cast<Real>(plan_->scene.simulation.flip_ratio.value_or(kDefaultFlipRatio));
+      const Motion m = g2p<Kernel, Transfer, Real, D, what>(batches_, layout_, cell_size(),
+                                                            static_cast<Real>(dt), ratio, grid_);
+      motion.max_speed = std::max(motion.max_speed, m.max_speed);
+      motion.max_displacement = std::max(motion.max_displacement, m.max_displacement);
+      motion.invalid = std::max(motion.invalid, m.invalid);  // of the same particles
+    });
+  }
+
+  void run_materials(double dt) {
+    timed(PassTimes::material, [&] { update_materials(static_cast<Real>(dt)); });
+  }
+  void update_materials(Real dt) {
     reports_.clear();
     material_seconds_.resize(batches_.size());
     for (std::size_t b = 0; b < batches_.size(); ++b) {
@@ -85,6 +128,9 @@ class PlainSimulation final : public ParticleSimulation<Real, D> {
 
   Sorter<Kernel, Real, D> sorter_;
   GridNodes<Real, D> grid_;
+  GridNodes<Real, D>
+      moved_;        // MUSL only: what the particles move with, while their new velocities are on grid_
+  Real least_mass_;  // kg; lighter nodes are ignored
   std::vector<StepEffect<Real, D>> effects_;
   std::vector<MaterialReport> reports_;
   std::vector<double> material_seconds_;  // by batch

@@ -30,8 +30,9 @@ struct Cost {
   std::size_t bytes;
 };
 
-/// What a frame's counters count; `capped`: particle updates on which a cap of the material model acted.
-inline constexpr std::array<const char*, 1> kCounters{"capped"};
+/// What a frame's counters count; `capped`: particle updates on which a cap of the material model acted;
+/// `ignored_nodes`: nodes lighter than simulation.mass_cutoff allows.
+inline constexpr std::array<const char*, 2> kCounters{"capped", "ignored_nodes"};
 
 class Simulation {
  public:

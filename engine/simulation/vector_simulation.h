@@ -23,15 +23,13 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
  public:
   VectorSimulation(const Plan& plan, std::span<const Seeds> seeds, const KernelTable<Real, D>& table,
                    const SortKernels<Real>& sort_kernels)
-      : Base(plan, seeds),
+      : Base(plan, seeds, QuadraticKernel::inverse_inertia),
         kernels_(transfer(table, plan.scene.simulation.transfer)),
         grid_kernels_(table.grid),
         updates_(table.materials),
         sorter_(sort_kernels),
         reports_(batches_.size()) {
-    for (const auto& batch : batches_)
-      for (std::size_t p = 0; p < batch.particles.size(); ++p)
-        lightest_ = std::min(lightest_, batch.particles.template view<Column::mass>().load(p));
+    lightest_ = static_cast<Real>(this->lightest());
     for (const Collider& collider : plan.effects.colliders)
       if (collider.motion.still()) still_.emplace_back(collider);
     sort(ColumnSet::all());
@@ -42,7 +40,7 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
   }
 
   void step(double dt, double next) override {
-    const double farthest = Base::kFarthestDrift * plan_->cell_size();
+    const double farthest = QuadraticKernel::farthest_drift * plan_->cell_size();
     FIRN_CHECK(announced_ == 0 || announced_ == dt);
     if (announced_ == 0) {
       if (drift_ >= farthest) timed(PassTimes::sort, [&] { sort(ColumnSet::all()); });
@@ -306,9 +304,9 @@ class VectorSimulation final : public ParticleSimulation<Real, D> {
   std::vector<Motion> motions_;
   std::array<BlockSamples, PassTimes::count> samples_;
   BlockSamples grid_samples_;
-  Real lightest_ = std::numeric_limits<Real>::max();  // kg, of the particles
-  bool contacts_known_ = false;                       // of still_ in layout_
-  double announced_ = 0;  // s; the length of the step whose forces are in the outboxes, or 0
+  Real lightest_;                // kg, of the particles
+  bool contacts_known_ = false;  // of still_ in layout_
+  double announced_ = 0;         // s; the length of the step whose forces are in the outboxes, or 0
 };
 
 }  // namespace firn

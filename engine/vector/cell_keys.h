@@ -14,7 +14,7 @@ void cell_keys(const Real* position, std::size_t, Real inverse_h, std::uint64_t*
   for (int d = 0; d < D; ++d)
     for (int at = 0; at < kTileSize; at += kLanes<Real>) {
       const L x = L::load(position + d * kTileSize + at) * L(inverse_h);
-      const auto cell = floor(x - L(QuadraticKernel::first_node_offset)).v[0];
+      const auto cell = floor(x - L(QuadraticKernel::sort_offset)).v[0];
       const hn::Rebind<std::int32_t, typename L::Tag> tag;
       if constexpr (sizeof(Real) == 4)
         hn::Store(hn::ConvertTo(tag, cell), tag, cells[d] + at);

@@ -84,7 +84,14 @@ std::size_t bytes_per_particle(const Plan& plan, const BatchPlan& batch) {
 
 std::string kernels(const Plan& plan) {
   const SimulationDescription& s = plan.scene.simulation;
-  return fmt::format("{}D, quadratic B-spline, {}, {}, {} ({})", s.dimension, name(s.transfer),
+  const std::string_view kernel = s.kernel == KernelName::linear  ? "linear"
+                                  : s.kernel == KernelName::gimp  ? "GIMP"
+                                  : s.kernel == KernelName::cubic ? "cubic B-spline"
+                                                                  : "quadratic B-spline";
+  const std::string_view order = s.stress_order == StressOrder::usf   ? "USF"
+                                 : s.stress_order == StressOrder::usl ? "USL"
+                                                                      : "MUSL";
+  return fmt::format("{}D, {}, {}, {}, {}, {} ({})", s.dimension, kernel, name(s.transfer), order,
                      s.precision == Precision::double_ ? "double" : "float",
                      plan.path.isa ? fmt::format("vectorised path, {}", name(*plan.path.isa)) : "plain path",
                      plan.path.reason);

@@ -34,7 +34,7 @@ struct Problem {
     for (std::size_t block = 0; block < layout.occupied(); ++block) {
       const auto [first, last] = batches[0].range(block);
       for (std::size_t p = first; p < last; ++p) {
-        const Stencil<QuadraticKernel, double, D> stencil(t.template view<Column::position>().load(p),
+        const Stencil<QuadraticKernel, double, D> stencil(t.template view<Column::position>().load(p), 0,
                                                           1 / kCell, layout.coord(block));
         typename Model::template Point<double, D> point;
         point.visit([&](auto column, auto& value) { value = t.template view<column()>().load(p); });

@@ -137,7 +137,7 @@ TEMPLATE_TEST_CASE_SIG("each block's share is the particles whose kernels begin 
         const auto x = batch.particles.template view<Column::position>().load(p);
         REQUIRE(place(x)[0] == layout.coord(b));
         // The transfers agree: on each axis the first node is one of the block's own, 1 to 4 of the scratch.
-        const Stencil<QuadraticKernel, Real, D> stencil(x, Real(1) / static_cast<Real>(kCell),
+        const Stencil<QuadraticKernel, Real, D> stencil(x, Real(0), Real(1) / static_cast<Real>(kCell),
                                                         layout.coord(b));
         for (int d = 0, rest = stencil.first; d < D; ++d, rest /= 8)
           REQUIRE((rest % 8 >= 1 && rest % 8 <= 4));

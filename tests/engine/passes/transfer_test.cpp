@@ -32,7 +32,7 @@ struct Grid {
     p2g<QuadraticKernel, Transfer, Real, D>(std::span<const Batch<Real, D>>(batches), layout,
                                             static_cast<Real>(h), dt, nodes);
   }
-  void update() { grid_update<Transfer, Real, D>(layout, h, 0, {}, nodes); }
+  void update() { grid_update<Transfer, Real, D>(layout, h, 0, {}, Real(0), nodes); }
   Motion gather(Real dt, Real ratio = 1) {
     return g2p<QuadraticKernel, Transfer, Real, D>(std::span<Batch<Real, D>>(batches), layout,
                                                    static_cast<Real>(h), dt, ratio, nodes);

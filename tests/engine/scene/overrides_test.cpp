@@ -73,7 +73,8 @@ TEST_CASE("what is wrong with an override is said with the override in the place
   check("simulation.clf=0.1",
         "--set simulation.clf=0.1: simulation.clf: unknown key 'clf'; did you mean 'cfl'? known: dimension, "
         "cell_size, "
-        "duration, frame_rate, transfer, flip_ratio, precision, path, cfl, max_dt, seed");
+        "duration, frame_rate, kernel, transfer, flip_ratio, stress_order, precision, path, cfl, max_dt, "
+        "mass_cutoff, seed");
   check("bodies.sphere.velocity=[0,0,0]",
         "--set bodies.sphere.velocity=[0,0,0]: bodies.sphere: found no element 'sphere'; there are 2: ball, "
         "cube");

@@ -65,11 +65,14 @@ TEST_CASE("every key of every section arrives at its member") {
   CHECK(d.simulation.cell_size == 0.25);
   CHECK(d.simulation.duration == 2.5);
   CHECK(d.simulation.frame_rate == 30);
+  CHECK(d.simulation.kernel == KernelName::gimp);
   CHECK(d.simulation.transfer == Transfer::flip);
   CHECK(d.simulation.flip_ratio == 0.95);
+  CHECK(d.simulation.stress_order == StressOrder::musl);
   CHECK(d.simulation.precision == Precision::double_);
   CHECK(d.simulation.cfl == 0.25);
   CHECK(d.simulation.max_dt == 1e-3);
+  CHECK(d.simulation.mass_cutoff == 1e-5);
   CHECK(d.simulation.seed == 77);
   CHECK(d.gravity == Vec3(1, 2, 3));
   REQUIRE(d.materials.size() == 2);
@@ -78,7 +81,7 @@ TEST_CASE("every key of every section arrives at its member") {
   CHECK(std::get<double>(d.materials[0].parameters.at("density").value) == 500);
   CHECK(std::get<double>(d.materials[0].parameters.at("hardening_cap").value) ==
         std::numeric_limits<double>::infinity());
-  CHECK(d.materials[0].parameters.at("density").mark.line == 21);
+  CHECK(d.materials[0].parameters.at("density").mark.line == 24);
 
   REQUIRE(d.bodies.size() == 3);
   CHECK(d.bodies[0].sampling == Sampling::poisson);
@@ -108,7 +111,7 @@ TEST_CASE("every key of every section arrives at its member") {
   REQUIRE(d.output.attributes.size() == 2);
   CHECK(d.output.attributes[0].text == "F_E");
   CHECK(d.output.attributes[1].text == "Jp");
-  CHECK(d.output.attributes[1].mark.line == 81);
+  CHECK(d.output.attributes[1].mark.line == 84);
 }
 
 TEST_CASE("every type of shape arrives with its numbers") {

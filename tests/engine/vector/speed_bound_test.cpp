@@ -43,7 +43,7 @@ struct Cloud {
     for (std::size_t p = 0; p < count; ++p) {
       Vector<Real, D> x;
       for (int d = 0; d < D; ++d) x[d] = static_cast<Real>(place(random));
-      stencils.emplace_back(x, Real(1), BlockCoord<D>{});
+      stencils.emplace_back(x, Real(0), Real(1), BlockCoord<D>{});
       const Real m = static_cast<Real>(std::pow(10, mass(random)));
       lightest = std::min(lightest, m);
       stencils.back().for_each(
