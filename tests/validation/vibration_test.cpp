@@ -126,7 +126,9 @@ TEST_CASE("a single point vibrates as the order and the kernel make it, to three
                            Row{"linear", "usl", 1e-3, 1.80e-3, 1.63e-2, 0.67381},
                            Row{"linear", "musl", 1e-3, 3.139e-4, 3.139e-4, 1.000001},
                            Row{"gimp", "usf", 1e-3, 2.16e-3, 3.04e-2, 1.0012},
-                           Row{"gimp", "usl", 1e-3, 4.66e-3, 3.61e-2, 0.45584});
+                           Row{"gimp", "usl", 1e-3, 4.66e-3, 3.61e-2, 0.45584},
+                           Row{"linear", "usf", 1e-4, 3.142e-5, 3.152e-5, 1},
+                           Row{"linear", "usl", 1e-4, 1.82e-4, 1.78e-3, 0.96128});
   CAPTURE(row.kernel, row.order, row.dt);
   const Result one = single_point(row.kernel, row.order, row.dt, 1);
   const Result ten = single_point(row.kernel, row.order, row.dt, 10);

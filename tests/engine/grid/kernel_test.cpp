@@ -117,6 +117,28 @@ TEST_CASE("GIMP becomes the linear kernel as its particles shrink") {
   }
 }
 
+TEST_CASE(
+    "GIMP's weights are the mean of the linear ones over the particle, its slopes that of their slopes") {
+  constexpr int kPieces = 2000;
+  for (const double size : {0.5, 0.25, 0.1})
+    for (double x = 0.0137; x < 2; x += 0.0871) {
+      const At<GimpKernel, double> gimp(x, size);
+      for (double node = -1; node <= 4; ++node) {
+        double mean = 0;
+        for (int k = 0; k < kPieces; ++k) {
+          const At<LinearKernel, double> piece(x + size * ((2 * k + 1.0) / kPieces - 1), 0);
+          mean += piece.weight(node) / kPieces;
+        }
+        // The midpoint rule is exact but for the two or three pieces with a kink: (2 L / n)^2.
+        CHECK(gimp.weight(node) == Approx(mean).margin(1e-6));
+        const At<LinearKernel, double> low(x - size, 0), high(x + size, 0);
+        const double n = node - gimp.first;
+        const double slope = n < 0 || n > 2 ? 0 : gimp.dw[static_cast<int>(n)];
+        CHECK(slope == Approx((high.weight(node) - low.weight(node)) / (2 * size)).margin(1e-12));
+      }
+    }
+}
+
 TEMPLATE_TEST_CASE("a particle's nodes lie in its block's scratch as far as it may drift", "", LinearKernel,
                    GimpKernel, QuadraticKernel, CubicKernel) {
   for (const double size : {0.5, 0.25, 1e-3})
