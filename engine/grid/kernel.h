@@ -1,31 +1,27 @@
 // Shape functions of the grid, one axis; D axes are their product. A kernel is a type with
 //
-//   name                what a scene calls it
 //   nodes               per axis
 //   sort_offset         a particle belongs to the cell floor(x/h - this)
-//   farthest_drift      cells a particle may move before it is sorted again: past that its nodes would leave
-//   the
-//                       scratch of its block
-//   affine              whether sum S (x_i - x_p)^2 is the same everywhere, h^2 / inverse_inertia, as APIC
-//   and
-//                       MLS-MPM take it to be
+//   farthest_drift      how many cells a particle may move before it is sorted again; past that its nodes
+//                       would leave the scratch of its block
+//   affine              whether sum S (x_i - x_p)^2 is h^2 / inverse_inertia wherever the particle is, which
+//                       APIC and MLS-MPM take for granted
 //   sized               whether it depends on the particle's size; elsewhere `size` is not read
 //   first_node(x, size) of a particle at x/h
-//   weights(f, size, w, dw)  at f = x/h - first node: the nodes' weights and their derivatives by x/h
+//   weights(f, size, w, dw)
+//                       at f = x/h - first node: the nodes' weights, and their derivatives by x/h
 //
-// `size` is half the particle's edge, in cells. For all of them sum S = 1 and sum S (x_i - x_p) = 0
-// everywhere (Steffen, Kirby & Berzins 2008).
+// `size` is half the particle's edge, in cells. For all kernels sum S = 1 and sum S (x_i - x_p) = 0 wherever
+// the particle is (Steffen, Kirby & Berzins 2008).
 #pragma once
 
 #include <cmath>
-#include <string_view>
 
 namespace firn {
 
 /// The hat of the original method (Sulsky, Chen & Schreyer 1994): 1 - |u| with u = (x_p - x_i)/h. Its
 /// gradient jumps where a particle crosses into the next cell.
 struct LinearKernel {
-  static constexpr std::string_view name = "linear";
   static constexpr int nodes = 2;
   static constexpr double sort_offset = 0, farthest_drift = 0.95;
   static constexpr bool affine = false, sized = false;
@@ -47,7 +43,6 @@ struct LinearKernel {
 /// The hat averaged over a particle that keeps its size (uGIMP; Bardenhagen & Kober 2004), L = size in (0,
 /// 1/2]: 1 - (u^2 + L^2)/(2L) for |u| < L, 1 - |u| up to 1 - L, (1 + L - |u|)^2/(4L) up to 1 + L.
 struct GimpKernel {
-  static constexpr std::string_view name = "gimp";
   static constexpr int nodes = 3;
   // The first node is that of the cell or the one before, so that sorting need not know the size.
   static constexpr double sort_offset = 0, farthest_drift = 0;
@@ -73,7 +68,6 @@ struct GimpKernel {
 
 /// Quadratic B-spline: 3/4 - u^2 for |u| < 1/2, (3/2 - |u|)^2/2 for |u| < 3/2.
 struct QuadraticKernel {
-  static constexpr std::string_view name = "quadratic";
   static constexpr int nodes = 3;
   static constexpr double sort_offset = 0.5, farthest_drift = 0.95;
   static constexpr bool affine = true, sized = false;
@@ -98,7 +92,6 @@ struct QuadraticKernel {
 
 /// Cubic B-spline: |u|^3/2 - u^2 + 2/3 for |u| < 1, (2 - |u|)^3/6 for |u| < 2.
 struct CubicKernel {
-  static constexpr std::string_view name = "cubic";
   static constexpr int nodes = 4;
   static constexpr double sort_offset = 1, farthest_drift = 0;
   static constexpr bool affine = true, sized = false;

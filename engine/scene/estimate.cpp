@@ -88,7 +88,8 @@ constexpr double writing_bytes(double components) {
 
 double plain_grid_bytes(double blocks, const SimulationDescription& s, double real) {
   const double reals = s.dimension + 1 + (s.transfer == Transfer::flip ? s.dimension : 0);
-  return blocks * power(kBlockEdge, s.dimension) * reals * real;
+  const int grids = s.stress_order == StressOrder::musl ? 2 : 1;
+  return grids * blocks * power(kBlockEdge, s.dimension) * reals * real;
 }
 
 // Two grids, of which one is filled while the other is read, and an outbox for each block with particles.
@@ -97,8 +98,9 @@ double vector_grid_bytes(double blocks, double occupied, int dimension, double r
          (kNodeReals * real);
 }
 
-/// How much more the transfers take than with the quadratic kernel and USL: by the nodes of a particle, and
-/// by the passes over them; two then, three and a half of USF and five and a half of MUSL.
+/// How much more the transfers take than with the quadratic kernel and USL: by a particle's nodes, and by how
+/// often the particles are passed over: twice, four times with USF, five and a half with MUSL, of whose
+/// gathers each does a part.
 double relative_transfers(const SimulationDescription& s) {
   const double nodes = s.kernel == KernelName::linear ? 2 : s.kernel == KernelName::cubic ? 4 : 3;
   const double passes = s.stress_order == StressOrder::usl   ? 1

@@ -128,9 +128,8 @@ class PlainSimulation final : public ParticleSimulation<Real, D> {
 
   Sorter<Kernel, Real, D> sorter_;
   GridNodes<Real, D> grid_;
-  GridNodes<Real, D>
-      moved_;        // MUSL only: what the particles move with, while their new velocities are on grid_
-  Real least_mass_;  // kg; lighter nodes are ignored
+  GridNodes<Real, D> moved_;  // MUSL: what moves the particles, while grid_ has their new velocities
+  Real least_mass_;           // kg; lighter nodes are ignored
   std::vector<StepEffect<Real, D>> effects_;
   std::vector<MaterialReport> reports_;
   std::vector<double> material_seconds_;  // by batch

@@ -176,3 +176,13 @@ TEST_CASE("disks: with the linear kernel and USL light nodes make energy, and th
   // A cut-off of a twentieth of a particle costs energy.
   CHECK(bounce(kLecture, "linear", "flip", "usl", 1e-3, {"simulation.mass_cutoff=0.05"}).total() < 0.96);
 }
+
+TEST_CASE("disks: in a run that does not need it, the cut-off hardly shows") {
+  const Bounce none = bounce(kCoarse, "gimp", "flip", "usf", 1e-3);
+  for (const std::string cutoff : {"1e-12", "1e-8", "1e-6", "1e-4"}) {
+    CAPTURE(cutoff);
+    const Bounce b = bounce(kCoarse, "gimp", "flip", "usf", 1e-3, {"simulation.mass_cutoff=" + cutoff});
+    CHECK(b.kinetic == Approx(none.kinetic).epsilon(1e-3));
+    CHECK(b.total() == Approx(none.total()).epsilon(1e-3));
+  }
+}
