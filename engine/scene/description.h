@@ -66,7 +66,7 @@ struct ShapeDescription {
   Vec3 translate = Vec3::Zero();  // m
 };
 
-enum class Sampling { jittered, poisson };
+enum class Sampling { jittered, lattice, poisson };
 
 struct BodyDescription {
   std::string name;

@@ -37,8 +37,9 @@ inline constexpr std::array<Choice<PathChoice>, 2> kPaths = {{
     {"automatic", PathChoice::automatic, "vectorised where there is such a path"},
     {"plain", PathChoice::plain, "the reference, some twenty times slower"},
 }};
-inline constexpr std::array<Choice<Sampling>, 2> kSamplings = {{
+inline constexpr std::array<Choice<Sampling>, 3> kSamplings = {{
     {"jittered", Sampling::jittered, "one particle in each part of a cell, at random in it"},
+    {"lattice", Sampling::lattice, "one in the middle of each part: for comparison with other programs"},
     {"poisson", Sampling::poisson, "at random with a least distance: more even, slower to make"},
 }};
 inline constexpr std::array<Choice<Contact>, 3> kContacts = {{
@@ -76,11 +77,12 @@ void fields(V& v, SimulationDescription& d) {
   v.real({"cfl", optional, "time step as a part of the largest explicit one"}, d.cfl,
          {.min = 0, .max = 1, .min_open = true});
   v.real({"max_dt", optional, "longest time step", "s", "1e-3"}, d.max_dt, kPositive);
-  v.real({"mass_cutoff", optional,
-          "nodes lighter than so many particles are ignored, with their momentum; if left out 1e-4 with kernel "
-          "\"linear\" and stress_order \"usl\", else 0",
-          "-", "1e-4"},
-         d.mass_cutoff, kFraction);
+  v.real(
+      {"mass_cutoff", optional,
+       "nodes lighter than so many particles are ignored, with their momentum; if left out 1e-4 with kernel "
+       "\"linear\" and stress_order \"usl\", else 0",
+       "-", "1e-4"},
+      d.mass_cutoff, kFraction);
   v.integer({"seed", optional, "of every random number"}, d.seed, {0});
 }
 

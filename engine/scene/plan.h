@@ -48,9 +48,10 @@ struct Plan {
   int frames() const;  // the first one included
 };
 
-/// Nodes lighter than so many particles are ignored. The linear kernel with USL needs it: as a particle enters a
-/// cell, the far nodes have next to no mass and an acceleration without bound, which USL puts into the strain. It
-/// takes the momentum on those nodes with it, and from 5e-2 on a noticeable part of the energy.
+/// Nodes lighter than so many particles are ignored. The linear kernel with USL needs it: as a particle
+/// enters a cell, the far nodes have next to no mass and an acceleration without bound, which USL puts into
+/// the strain. It takes the momentum on those nodes with it, and from 5e-2 on a noticeable part of the
+/// energy.
 inline double mass_cutoff(const SimulationDescription& s) {
   const bool needed = s.kernel == KernelName::linear && s.stress_order == StressOrder::usl;
   return s.mass_cutoff.value_or(needed ? 1e-4 : 0);

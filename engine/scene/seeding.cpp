@@ -119,6 +119,12 @@ void compare_count(const BodyDescription& body, const Seeds& seeds, double wante
                   body.name, count, seeds.volume, wanted));
 }
 
+PointPattern pattern_of(const BodyDescription& body, int dimension, double cell_size, std::uint64_t key) {
+  const double per_cell = body.particles_per_cell;
+  if (body.sampling == Sampling::poisson) return poisson_pattern(dimension, cell_size, per_cell, key);
+  return jittered_pattern(dimension, cell_size, per_cell, key, body.sampling == Sampling::lattice ? 0 : 1);
+}
+
 }  // namespace
 
 Seeds seed_body(const BodyDescription& body, const Shape* shape, int dimension, double cell_size,
@@ -129,10 +135,7 @@ Seeds seed_body(const BodyDescription& body, const Shape* shape, int dimension, 
   }
   check_count(body, estimate_count(body, shape, dimension, cell_size, scene_folder), dimension, cell_size);
 
-  const std::uint64_t key = body_key(seed, body_index);
-  const PointPattern pattern = body.sampling == Sampling::jittered
-                                   ? jittered_pattern(dimension, cell_size, body.particles_per_cell, key)
-                                   : poisson_pattern(dimension, cell_size, body.particles_per_cell, key);
+  const PointPattern pattern = pattern_of(body, dimension, cell_size, body_key(seed, body_index));
   Seeds seeds;
   located(body, [&] {
     seeds.position = points_inside(*shape, covering_cells(shape->bounds(), dimension, pattern.cell_size),

@@ -24,7 +24,7 @@ struct PointPattern {
 
 /// `amount` is the jitter as part of a stratum: 1 fills it, 0 puts each point in the middle.
 PointPattern jittered_pattern(int dimension, double cell_size, double per_cell, std::uint64_t key,
-                              double amount = 1);
+                              double amount);
 
 PointPattern poisson_pattern(int dimension, double cell_size, double per_cell, std::uint64_t key);
 

@@ -96,6 +96,26 @@ class ElasticCubes(SceneTest):
         self.assertEqual(sorted(map(len, parts)), sorted(body["particles"] for body in bodies))
 
 
+class TwoCylinders(SceneTest):
+    def test_they_bounce_and_keep_their_energy(self):
+        table = self.run_scene("two_cylinders")
+        start, end = table[0], table[-1]
+        # 1/2 m v^2 of two cylinders; areas are sampled in 2D.
+        exact = 1000 * math.pi * 0.25**2 * (0.1**2 + 0.1**2)
+        self.assertAlmostEqual(start["kinetic"], exact, delta=1e-3 * exact)
+        flattest = max(table, key=lambda row: row["elastic"])
+        self.assertAlmostEqual(flattest["time"], 1.23, delta=0.05)
+        self.assertGreater(flattest["elastic"], 0.95 * exact)
+        self.assertLess(flattest["kinetic"], 0.05 * exact)
+        for row in table:
+            self.assertAlmostEqual(row["total"], exact, delta=5e-3 * exact)
+            for axis in "xy":
+                self.assertLess(abs(row["momentum_" + axis]), 1e-12 * start["mass"] * start["max_speed"])
+        # An independent program ended with 0.938 of the energy in motion.
+        self.assertAlmostEqual(end["kinetic"] / exact, 0.938, delta=0.01)
+        self.assertEqual(len(pieces(exported_points(self.frame(len(table))), 1.5 * 0.05)), 2)
+
+
 class SnowOnWedge(SceneTest):
     def test_a_coarse_slab_splits_on_the_edge_and_stays_above_the_ground(self):
         h = 0.06
