@@ -16,7 +16,7 @@ class StillCollider {
  public:
   explicit StillCollider(const Collider& collider) : posed_(collider, 0) {}
 
-  /// Looks at every block of `layout`; holds until the next call.
+  /// Looks at every block of `layout`; holds until the next call. `h`: cell size, m.
   void find(const BlockLayout<D>& layout, double h) {
     const auto start = std::chrono::steady_clock::now();
     nodes_.resize(layout.size());
@@ -47,7 +47,7 @@ class StillCollider {
     });
   }
 
-  /// What finding took since the start.
+  /// What finding took since the start, s.
   double seconds() const { return seconds_; }
   std::size_t bytes() const {
     return nodes_.capacity() * sizeof(NodeSet) + first_.capacity() * sizeof(std::size_t) +

@@ -8,6 +8,7 @@
 #include "engine/base/nearest_name.h"
 #include "engine/scene/fields.h"
 #include "engine/scene/table_reader.h"
+#include "engine/scene/with_kernel.h"
 
 namespace firn {
 namespace {
@@ -126,8 +127,8 @@ void check(TableReader& reader, const SimulationDescription& d) {
     reader.report("flip_ratio", "found a ratio; allowed: none, for transfer is not \"flip\"");
   }
   const bool affine = d.transfer == Transfer::apic || d.transfer == Transfer::mls;
-  const bool varies = d.kernel == KernelName::linear || d.kernel == KernelName::gimp;
-  if (affine && varies && reader.good({"kernel", "transfer"})) {
+  const bool supports = with_kernel(d.kernel, [](auto kernel) { return kernel.affine; });
+  if (affine && !supports && reader.good({"kernel", "transfer"})) {
     reader.report("kernel",
                   fmt::format("found '{}' with transfer '{}'; allowed: 'quadratic' and 'cubic', or transfer "
                               "'flip' or 'pic': an affine velocity takes sum S (x_i - x_p)^2 to be the same "

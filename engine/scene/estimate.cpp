@@ -6,6 +6,7 @@
 
 #include "engine/grid/block_layout.h"
 #include "engine/scene/seeding.h"
+#include "engine/scene/with_kernel.h"
 #include "materials/model_info.h"
 
 namespace firn {
@@ -102,11 +103,11 @@ double vector_grid_bytes(double blocks, double occupied, int dimension, double r
 /// often the particles are passed over: twice, four times with USF, five and a half with MUSL, of whose
 /// gathers each does a part.
 double relative_transfers(const SimulationDescription& s) {
-  const double nodes = s.kernel == KernelName::linear ? 2 : s.kernel == KernelName::cubic ? 4 : 3;
+  const double nodes = with_kernel(s.kernel, [](auto kernel) { return kernel.nodes; });
   const double passes = s.stress_order == StressOrder::usl   ? 1
                         : s.stress_order == StressOrder::usf ? 2
                                                              : 2.75;
-  return std::pow(nodes / 3, s.dimension) * passes;
+  return std::pow(nodes / QuadraticKernel::nodes, s.dimension) * passes;
 }
 
 }  // namespace

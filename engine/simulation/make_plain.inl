@@ -1,5 +1,6 @@
 #pragma once
 
+#include "engine/scene/with_kernel.h"
 #include "engine/simulation/make_plain.h"
 #include "engine/simulation/plain_simulation.h"
 
@@ -23,17 +24,8 @@ std::unique_ptr<Simulation> make_with_kernel(const Plan& plan, std::span<const S
 
 template <class Real, int D>
 std::unique_ptr<Simulation> make_plain(const Plan& plan, std::span<const Seeds> seeds) {
-  switch (plan.scene.simulation.kernel) {
-    case KernelName::linear:
-      return make_with_kernel<Real, D, LinearKernel>(plan, seeds);
-    case KernelName::gimp:
-      return make_with_kernel<Real, D, GimpKernel>(plan, seeds);
-    case KernelName::cubic:
-      return make_with_kernel<Real, D, CubicKernel>(plan, seeds);
-    case KernelName::quadratic:
-      break;
-  }
-  return make_with_kernel<Real, D, QuadraticKernel>(plan, seeds);
+  return with_kernel(plan.scene.simulation.kernel,
+                     [&]<class Kernel>(Kernel) { return make_with_kernel<Real, D, Kernel>(plan, seeds); });
 }
 
 }  // namespace firn

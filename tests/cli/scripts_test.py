@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""tools/scripts/scaling and prices: the shape of what they print. How fast anything is, no test asks."""
+"""tools/scripts/scaling, prices, without-effects: the shape of what they print. How fast anything is, no test asks."""
 
 import importlib.machinery
 import importlib.util
@@ -119,6 +119,17 @@ class Prices(ScriptTest):
 
     def test_mistakes_are_told(self):
         self.assert_says_what_is_wrong("prices")
+
+
+class WithoutEffects(ScriptTest):
+    def test_it_still_finds_what_it_cuts_out(self):
+        module = load("without-effects")
+        with open(os.path.join(SOURCE, module.STEP), encoding="utf-8") as file:
+            text = file.read()
+        for effect in module.EFFECTS:
+            self.assertNotIn(effect, module.cut(text))
+        with self.assertRaises(SystemExit):
+            module.cut(text.replace("clock.lap(1 + e)", "clock.lap(e)"))
 
 
 def load(name):

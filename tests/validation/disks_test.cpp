@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "tests/support/simulated.h"
+#include "tests/validation/lattice_disk.h"
 
 using namespace firn;
 using firn::test::Simulated;
@@ -29,17 +30,9 @@ constexpr Disks kLecture{0.25, 0.25, 0.75, 1000, 1000, 0.3, 0.14142135623730951,
 constexpr Disks kSulsky{0.2, 0.2, 0.8, 1000, 1000, 0.3, 0.14142135623730951, 0.025, 3.5};
 
 Seeds disk(const Disks& d, double center, double speed) {
-  Seeds out;
-  const int n = static_cast<int>(std::ceil(d.radius / d.spacing));
-  for (int i = -n; i < n; ++i)
-    for (int j = -n; j < n; ++j) {
-      const Vec3 offset = d.spacing * Vec3(i + 0.5, j + 0.5, 0);
-      if (offset.norm() > d.radius) continue;
-      out.position.push_back(Vec3(center, center, 0) + offset);
-      out.velocity.push_back(Vec3(speed, speed, 0) / std::sqrt(2.0));
-    }
-  out.volume = d.spacing * d.spacing * static_cast<double>(out.position.size());
-  return out;
+  const Vec3 velocity = Vec3(speed, speed, 0) / std::sqrt(2.0);
+  return test::lattice_disk(Vec3(center, center, 0), d.radius, d.spacing,
+                            [&](const Vec3&) { return velocity; });
 }
 
 struct Bounce {

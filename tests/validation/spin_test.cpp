@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "tests/support/simulated.h"
+#include "tests/validation/lattice_disk.h"
 
 using namespace firn;
 using firn::test::Simulated;
@@ -12,7 +13,6 @@ namespace {
 
 /// What is left of the angular momentum.
 double spin(const std::string& kernel, const std::string& transfer, const std::string& order = "usl") {
-  constexpr double kRadius = 0.25, kSpacing = 0.025;
   const std::string scene = fmt::format(R"(
 [simulation]
 dimension = 2
@@ -37,16 +37,8 @@ shape = {{ type = "sphere", center = [0, 0, 0], radius = 1 }}
   std::vector<std::string> overrides;
   if (transfer == "flip") overrides = {"simulation.flip_ratio=1"};
   Simulated s(scene, overrides, FIRN_TEST_DATA, [&](std::vector<Seeds>& seeds) {
-    Seeds disk;
-    for (int i = -10; i < 10; ++i)
-      for (int j = -10; j < 10; ++j) {
-        const Vec3 x = kSpacing * Vec3(i + 0.5, j + 0.5, 0);
-        if (x.norm() > kRadius) continue;
-        disk.position.push_back(x);
-        disk.velocity.push_back(Vec3(-x.y(), x.x(), 0));
-      }
-    disk.volume = kSpacing * kSpacing * static_cast<double>(disk.position.size());
-    seeds = {disk};
+    const auto turn = [](const Vec3& x) { return Vec3(-x.y(), x.x(), 0); };
+    seeds = {test::lattice_disk(Vec3::Zero(), 0.25, 0.025, turn)};
   });
   const double start = s.totals().angular[2];
   for (int n = 0; n < 2000; ++n) s->step(1e-3);

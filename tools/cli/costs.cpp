@@ -24,7 +24,7 @@ std::vector<std::string> effects_of(const Plan& plan, const std::string& materia
 }  // namespace
 
 nlohmann::json costs_json(const Plan& plan, const Simulation& simulation, std::int64_t steps,
-                                  const FrameWriter::Times& writing) {
+                          const FrameWriter::Times& writing) {
   std::vector<Cost> costs = simulation.costs();
   // What the simulation itself spends on caches: the copy of a frame, and waiting for the disk.
   costs.push_back({"caches", {}, "frame", writing.snapshot + writing.wait, 0});

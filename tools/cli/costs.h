@@ -13,7 +13,7 @@ namespace firn {
 /// One object a part, the dearest first; shares are of the time all of them took together. `writing`: after
 /// the last frame.
 nlohmann::json costs_json(const Plan& plan, const Simulation& simulation, std::int64_t steps,
-                                  const FrameWriter::Times& writing);
+                          const FrameWriter::Times& writing);
 
 /// The same in a line: "transfer 48 %, snow 31 % (elasticity, plasticity), ..., caches hidden".
 std::string costs_line(const nlohmann::json& costs);

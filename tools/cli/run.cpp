@@ -88,8 +88,8 @@ struct RunTimes {
 
 /// `output` after its finish().
 nlohmann::json run_record(const Plan& plan, const Estimate& e, const Simulation& simulation,
-                                  const RunOutput& output, const RunTimes& times, int threads,
-                                  std::string_view state) {
+                          const RunOutput& output, const RunTimes& times, int threads,
+                          std::string_view state) {
   nlohmann::json passes;
   double stepping = 0;
   for (int p = 0; p < PassTimes::count; ++p) {
