@@ -20,8 +20,9 @@ enum class Column : std::uint8_t {
   elastic_deformation,  // F_E
   plastic_deformation,  // F_P
   stress,               // tau, Pa: Kirchhoff stress, symmetric
+  force,                // f, N: from outside, on the particle itself
 };
-inline constexpr int kColumnCount = 8;
+inline constexpr int kColumnCount = 9;
 
 enum class Rank : std::uint8_t { scalar, vector, matrix, symmetric };
 
@@ -39,6 +40,7 @@ inline constexpr std::array<ColumnInfo, kColumnCount> kColumnInfo = {{
     {"elastic deformation", "F_E", "-", Rank::matrix},
     {"plastic deformation", "F_P", "-", Rank::matrix},
     {"Kirchhoff stress", "tau", "Pa", Rank::symmetric},
+    {"force", "f", "N", Rank::vector},
 }};
 
 constexpr const ColumnInfo& info(Column c) {

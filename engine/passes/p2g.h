@@ -47,6 +47,23 @@ void scatter(const ParticleTable<Real, D>& particles, std::pair<std::size_t, std
   }
 }
 
+/// Adds what acts on particles from outside, for a scene that has such forces: q_i += dt sum S f_p.
+template <class Kernel, class Real, int D>
+void scatter_forces(const ParticleTable<Real, D>& particles, std::pair<std::size_t, std::size_t> range,
+                    const BlockCoord<D>& block, Real h, Real dt, Scratch<Node<Real, D>, D>& nodes) {
+  const auto position = particles.template view<Column::position>();
+  const auto volume = particles.template view<Column::volume>();
+  const auto force = particles.template view<Column::force>();
+  for (std::size_t p = range.first; p < range.second; ++p) {
+    const Stencil<Kernel, Real, D> stencil(
+        position.load(p), particle_size<Kernel, Real, D>(volume.load(p), Real(1) / h), Real(1) / h, block);
+    const Vector<Real, D> impulse = dt * force.load(p);
+    stencil.for_each([&](std::size_t node, Real w, const Vector<Real, D>&, const Vector<Real, D>&) {
+      nodes.node[node].v += w * impulse;
+    });
+  }
+}
+
 }  // namespace detail
 
 /// Leaves momentum and mass in `grid.nodes`, and in `grid.before` the momentum without forces where the
@@ -62,9 +79,13 @@ void p2g(std::span<const Batch<Real, D>> batches, const BlockLayout<D>& layout, 
       Scratch<Node<Real, D>, D> nodes{};
       Scratch<Vector<Real, D>, D> before;
       if constexpr (Transfer::increments) before = {};
-      for (const Batch<Real, D>& batch : batches)
+      for (const Batch<Real, D>& batch : batches) {
         detail::scatter<Kernel, Transfer, Real, D>(batch.particles, batch.range(block), layout.coord(block),
                                                    h, dt, nodes, &before);
+        if (dt > Real(0) && batch.particles.columns().has(Column::force))
+          detail::scatter_forces<Kernel, Real, D>(batch.particles, batch.range(block), layout.coord(block), h,
+                                                  dt, nodes);
+      }
       const auto& blocks = layout.neighbours(block);
       nodes.for_each([&](const Node<Real, D>& value, int neighbour, int local) {
         Node<Real, D>& node =

@@ -35,6 +35,11 @@ bool bounded(const ShapeDescription& shape) {
   return true;
 }
 
+void check_name(TableReader& reader, const std::string& name) {
+  if (!name.empty() || !reader.has("name") || !reader.good({"name"})) return;
+  reader.report("name", "found ''; allowed: a name that is not empty");
+}
+
 // The second and later of equal names.
 template <class T>
 void check_names(TableReader& reader, std::string_view list, const std::vector<T>& items) {
@@ -140,6 +145,10 @@ void check(TableReader& reader, const SimulationDescription& d) {
 void check(TableReader&, const Vec3&) {}
 void check(TableReader&, const MaterialDescription&) {}
 void check(TableReader&, const KeyFrame&) {}
+void check(TableReader&, const BodyForceDescription&) {}
+void check(TableReader& reader, const LoadDescription& d) {
+  check_name(reader, d.name);
+}
 void check(TableReader&, const OutputDescription&) {}
 
 void check(TableReader& reader, const ShapeDescription& d) {
@@ -153,9 +162,7 @@ void check(TableReader& reader, const BodyDescription& d) {
   if (points && !shape && reader.has("sampling")) {
     reader.report("sampling", "found a sampling; allowed: none, for points are given");
   }
-  if (d.name.empty() && reader.has("name") && reader.good({"name"})) {
-    reader.report("name", "found ''; allowed: a name that is not empty");
-  }
+  check_name(reader, d.name);
   if (d.shape && reader.good({"shape"}) && !bounded(*d.shape)) {
     reader.report("shape",
                   "found a shape that reaches to infinity; allowed: planes only to cut another shape with");
@@ -164,9 +171,7 @@ void check(TableReader& reader, const BodyDescription& d) {
 
 void check(TableReader& reader, const ColliderDescription& d) {
   check_contact(reader, d.contact);
-  if (d.name.empty() && reader.has("name") && reader.good({"name"})) {
-    reader.report("name", "found ''; allowed: a name that is not empty");
-  }
+  check_name(reader, d.name);
   if (!reader.good({"keyframes"})) return;
   for (std::size_t i = 1; i < d.keyframes.size(); ++i) {
     if (d.keyframes[i].time > d.keyframes[i - 1].time) continue;
@@ -184,6 +189,7 @@ void check(TableReader& reader, const DomainDescription& d) {
 void check(TableReader& reader, const SceneDescription& d) {
   check_names(reader, "bodies", d.bodies);
   check_names(reader, "colliders", d.colliders);
+  check_names(reader, "loads", d.loads);
   if (reader.has("materials") && !d.bodies.empty()) check_materials(reader, d);
 }
 

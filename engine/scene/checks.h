@@ -15,6 +15,8 @@ void check(TableReader& reader, const ShapeDescription& d);
 void check(TableReader& reader, const BodyDescription& d);
 void check(TableReader& reader, const KeyFrame& d);
 void check(TableReader& reader, const ColliderDescription& d);
+void check(TableReader& reader, const BodyForceDescription& d);
+void check(TableReader& reader, const LoadDescription& d);
 void check(TableReader& reader, const DomainDescription& d);
 void check(TableReader& reader, const OutputDescription& d);
 void check(TableReader& reader, const SceneDescription& d);

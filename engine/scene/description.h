@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/base/problems.h"
+#include "engine/base/vector_formula.h"
 #include "engine/effects/contact.h"
 #include "engine/shapes/shape.h"
 
@@ -21,6 +22,11 @@ struct Name {
   std::string text;
   SourceMark mark;
 };
+
+/// What a formula can depend on: the place at the start, or in a force the place now, that at the start, and
+/// the time.
+inline constexpr std::array<std::string_view, 3> kPlaceNames = {"x", "y", "z"};
+inline constexpr std::array<std::string_view, 7> kForceNames = {"x", "y", "z", "X", "Y", "Z", "t"};
 
 struct ShapeDescription;
 
@@ -76,7 +82,7 @@ struct BodyDescription {
   std::optional<Name> points;             // CSV or PLY file of positions (and optionally velocities)
   Sampling sampling = Sampling::jittered;
   double particles_per_cell = 8;
-  Vec3 velocity = Vec3::Zero();          // m/s
+  VectorQuantity velocity;               // m/s, of kPlaceNames
   Vec3 angular_velocity = Vec3::Zero();  // degrees/s about the body's centre of mass
 };
 
@@ -105,6 +111,18 @@ struct ColliderDescription {
   Contact contact = Contact::separating;
   double friction = 0;              // Coulomb, for slip and separating
   std::vector<KeyFrame> keyframes;  // empty: static; moves the shape about its own origin
+};
+
+struct BodyForceDescription {
+  VectorQuantity acceleration;  // m/s^2, of kForceNames
+};
+
+/// A force that the particles which start in `region` share by their mass.
+struct LoadDescription {
+  std::string name;
+  SourceMark mark;
+  ShapeDescription region;
+  VectorQuantity force;  // N, of kForceNames
 };
 
 struct DomainDescription {
@@ -148,6 +166,8 @@ struct SceneDescription {
   std::string title, description;
   SimulationDescription simulation;
   std::optional<Vec3> gravity;  // m/s^2
+  std::optional<BodyForceDescription> body_force;
+  std::vector<LoadDescription> loads;
   std::vector<MaterialDescription> materials;
   std::vector<BodyDescription> bodies;
   std::vector<ColliderDescription> colliders;

@@ -75,6 +75,25 @@ BlockCounts count_blocks(const Shape& shape, int dimension, double h) {
   return {count_blocks(shape, dimension, h, 0.5 * half + 0.25), count_blocks(shape, dimension, h, half + 1)};
 }
 
+/// What `velocity` gives a body at most, m/s: of a formula the largest on a lattice of its bounds.
+double fastest(const BodyDescription& body, const Shape* shape, int dimension) {
+  const VectorFormula velocity(body.velocity, kPlaceNames);
+  constexpr int kPoints = 9;
+  const Bounds b =
+      shape != nullptr ? along_axes(shape->bounds(), dimension) : Bounds{Vec3::Zero(), Vec3::Zero()};
+  const int points = velocity.constant() ? 1 : static_cast<int>(power(kPoints, dimension));
+  double speed = 0;
+  for (int k = 0, rest = 0; k < points; ++k) {
+    Vec3 x = Vec3::Zero();
+    rest = k;
+    for (int d = 0; d < dimension; ++d, rest /= kPoints)
+      x[d] = b.min[d] + (b.max[d] - b.min[d]) * (rest % kPoints) / (kPoints - 1);
+    const auto v = velocity({x.data(), 3});
+    speed = std::max(speed, Vec3(v[0], v[1], v[2]).norm());
+  }
+  return speed;
+}
+
 // Bytes a point takes in a frame: float P and v, 64-bit id, compressed; others by their components.
 constexpr double kPointBytes = 24;
 constexpr double kAttributeComponentBytes = 3.6;
@@ -156,7 +175,7 @@ Estimate estimate(const Plan& plan) {
       occupied += blocks.occupied;
     }
     e.wave_speed = std::max(e.wave_speed, wave_speed_at_rest(batch, s.dimension));
-    double speed = body.velocity.norm();
+    double speed = fastest(body, plan.bodies[b].shape.get(), s.dimension);
     if (plan.bodies[b].shape) {
       const Bounds bounds = along_axes(plan.bodies[b].shape->bounds(), s.dimension);
       speed += body.angular_velocity.norm() * std::numbers::pi / 180 * (bounds.max - bounds.min).norm() / 2;

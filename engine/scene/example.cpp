@@ -73,12 +73,20 @@ SceneDescription live_scene(const ModelInfo& model) {
   d.simulation.cell_size = 0.05;
   d.simulation.duration = 0.5;
   d.gravity = Vec3(0, -9.81, 0);
+  d.body_force.emplace();
+  d.body_force->acceleration[0].formula = "min(2 * t, 1) * cos(pi * y)";
   d.materials = {material("snow", model)};
   BodyDescription ball = body("ball", "snow", shape(SphereDescription{{0, 0.4, 0}, 0.2}));
-  ball.velocity = {4, 1, 0};
+  ball.velocity[0].number = 4;
+  ball.velocity[1].formula = "1 + 0.5 * sin(2 * pi * z)";
   ball.angular_velocity = {0, 0, -90};
   d.bodies = {ball, body("hut", "snow", hut())};
   d.colliders = colliders();
+  LoadDescription push;
+  push.name = "push";
+  push.region = shape(BoxDescription{{1.2, 0, -0.3}, {1.3, 0.4, 0.3}});
+  push.force[0].number = -50;
+  d.loads = {push};
   d.domain = DomainDescription{{-2, -0.2, -1}, {2, 2, 1}};
   for (const Attribute& attribute : kAttributes)
     d.output.attributes.push_back({std::string(attribute.name), {}});

@@ -93,6 +93,16 @@ void fields(V& v, Vec3& gravity) {
 }
 
 template <class V>
+void fields(V& v, BodyForceDescription& d) {
+  v.quantities(
+      {"acceleration", Need::required,
+       "of every particle; each a number or a formula of its place x, y, z, its place X, Y, Z at the "
+       "start, and the time t",
+       "m/s^2"},
+      d.acceleration, kForceNames);
+}
+
+template <class V>
 void fields(V& v, MaterialDescription& d) {
   v.model({"model", Need::required, "one of those that 'firn materials' lists"}, d);
 }
@@ -167,7 +177,8 @@ void fields(V& v, BodyDescription& d) {
   v.choice({"sampling", optional, "how a shape is filled"}, d.sampling, kSamplings);
   v.real({"particles_per_cell", optional, "in a full cell"}, d.particles_per_cell,
          {.min = 0, .max = 1000, .min_open = true});
-  v.vector({"velocity", optional, "at the start", "m/s"}, d.velocity);
+  v.quantities({"velocity", optional, "at the start; each a number or a formula of x, y, z", "m/s"},
+               d.velocity, kPlaceNames);
   v.vector({"angular_velocity", optional, "at the start, about the center of mass", "degrees/s"},
            d.angular_velocity, Axes::about);
 }
@@ -196,6 +207,16 @@ void fields(V& v, ColliderDescription& d) {
 }
 
 template <class V>
+void fields(V& v, LoadDescription& d) {
+  using enum Need;
+  v.text({"name", required, "unique among the loads"}, d.name);
+  v.shape({"region", required, "acts on the particles that start in it"}, d.region);
+  v.quantities({"force", required,
+                "on all of them together, shared by mass; each a number or a formula as of body_force", "N"},
+               d.force, kForceNames);
+}
+
+template <class V>
 void fields(V& v, DomainDescription& d) {
   v.vector({"min", Need::required, "lowest corner", "m"}, d.min);
   v.vector({"max", Need::required, "highest corner", "m"}, d.max);
@@ -214,9 +235,11 @@ void fields(V& v, SceneDescription& d) {
   v.text({"description", optional, "what it shows and what the right answer looks like"}, d.description);
   v.section({"simulation", required, "the method and its accuracy"}, d.simulation);
   v.section({"gravity", optional, "none if left out"}, d.gravity);
+  v.section({"body_force", optional, "one that varies; none if left out"}, d.body_force);
   v.materials({"materials", required, "[materials.NAME], one for each material"}, d.materials);
   v.list({"bodies", required, "what is simulated"}, d.bodies);
   v.list({"colliders", optional, "what the bodies run into"}, d.colliders);
+  v.list({"loads", optional, "forces on parts of bodies"}, d.loads);
   v.section({"domain", optional, "a box whose walls hold the material; open if left out"}, d.domain);
   v.section({"output", optional, "what the frames hold"}, d.output);
 }

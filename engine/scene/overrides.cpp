@@ -26,8 +26,9 @@ std::string as_toml_string(std::string_view word) {
 }
 
 // The override as the scene it would be alone: tables of one key each, down to the value.
-std::optional<toml::table> parse_override(const std::string& text, const std::string& source,
-                                          Report& report) {
+// `removes`: nothing stands after its sign of equality.
+std::optional<toml::table> parse_override(const std::string& text, const std::string& source, Report& report,
+                                          bool& removes) {
   const std::size_t equals = text.find('=');
   const bool printing =
       std::none_of(text.begin(), text.end(), [](char c) { return c >= '\0' && c < ' ' && c != '\t'; });
@@ -35,6 +36,8 @@ std::optional<toml::table> parse_override(const std::string& text, const std::st
     report.add({source, 0, 0}, "", "found no KEY=VALUE on one line; allowed: as in simulation.cfl=0.2");
     return std::nullopt;
   }
+  removes = text.find_first_not_of(" \t", equals + 1) == std::string::npos;
+  if (removes) return parse_toml(text.substr(0, equals) + "=0", source, report);
   Report ignored(report.file());
   if (auto table = parse_toml(text, source, ignored)) return table;
   return parse_toml(text.substr(0, equals + 1) + as_toml_string(text.substr(equals + 1)), source, report);
@@ -73,7 +76,8 @@ std::string no_element(const toml::array& array, std::string_view key) {
 
 class Merge {
  public:
-  Merge(std::string source, Report& report) : source_(std::move(source)), report_(report) {}
+  Merge(std::string source, bool removes, Report& report)
+      : source_(std::move(source)), removes_(removes), report_(report) {}
 
   // `change` has one key.
   void into(toml::node& target, toml::table& change) {
@@ -93,6 +97,7 @@ class Merge {
     if (old && is_path(value) && (old->is_table() || old->is_array())) return into(*old, *value.as_table());
     // Erased first, so that the key, too, says that it came from the command line.
     table.erase(key.str());
+    if (removes_) return;
     value.visit([&](auto& concrete) { table.insert(key, std::move(concrete)); });
   }
 
@@ -102,10 +107,12 @@ class Merge {
     if (is_path(value) && (old->is_table() || old->is_array())) return into(*old, *value.as_table());
     const auto index =
         std::find_if(array.begin(), array.end(), [&](toml::node& element) { return &element == old; });
+    if (removes_) return void(array.erase(index));
     value.visit([&](auto& concrete) { array.replace(index, std::move(concrete)); });
   }
 
   std::string source_;
+  bool removes_;
   Report& report_;
   std::string path_;
 };
@@ -114,7 +121,9 @@ class Merge {
 
 void apply_override(const std::string& text, toml::table& scene, Report& report) {
   const std::string source = "--set " + printable(text, 200);
-  if (auto change = parse_override(text, source, report)) Merge(source, report).into(scene, *change);
+  bool removes = false;
+  if (auto change = parse_override(text, source, report, removes))
+    Merge(source, removes, report).into(scene, *change);
 }
 
 }  // namespace firn

@@ -10,7 +10,8 @@
 namespace firn {
 
 /// KEY=VALUE with a dotted key and a value in TOML; a bare word is a string. Tables in an array go by their
-/// name or by their index. What the key names is replaced, or made if it is absent.
+/// name or by their index. What the key names is replaced, or made if it is absent; with no value it is
+/// removed.
 void apply_override(const std::string& text, toml::table& scene, Report& report);
 
 }  // namespace firn

@@ -28,12 +28,14 @@ ColumnSet transfer_columns(Transfer transfer) {
   return kTransferColumns | ApicTransfer::columns;
 }
 
-PathPlan plan_path(const SimulationDescription& s) {
+PathPlan plan_path(const SceneDescription& scene) {
+  const SimulationDescription& s = scene.simulation;
   if (s.path == PathChoice::plain) return {{}, "simulation.path = \"plain\""};
   if (s.dimension == 1) return {{}, "the vectorised path has no 1D"};
   if (s.kernel != KernelName::quadratic) return {{}, "the vectorised path has the quadratic kernel only"};
   if (s.stress_order != StressOrder::usl) return {{}, "the vectorised path has stress_order \"usl\" only"};
   if (s.transfer == Transfer::flip) return {{}, "FLIP needs every particle's velocity in every step"};
+  if (scene.body_force || !scene.loads.empty()) return {{}, "the vectorised path has no forces on particles"};
   if (mass_cutoff(s) > 0) return {{}, "the vectorised path ignores no node"};
   const std::optional<Isa> isa = best_isa();
   if (!isa) return {{}, "the processor has no SSE4, or FIRN_ISA = none"};
@@ -94,6 +96,7 @@ void plan_batches(const SceneDescription& scene, Plan& plan) {
     const bool stress_asked = std::any_of(scene.output.attributes.begin(), scene.output.attributes.end(),
                                           [](const Name& a) { return a.text == "stress"; });
     if (plan.path.isa && !stress_asked) columns = columns.without(Column::stress);
+    if (scene.body_force || !scene.loads.empty()) columns = columns | ColumnSet{Column::force};
     plan.batches.push_back({material.name, std::string(model.name), density, law, columns});
   }
 }
@@ -122,6 +125,13 @@ void plan_effects(const SceneDescription& scene, Plan& plan, Problems& problems)
                                  plan.warnings, problems);
     plan.effects.colliders.push_back({c.name, shape, c.contact, c.friction, motion(c.keyframes)});
   }
+  if (scene.body_force) plan.forces.acceleration.emplace(scene.body_force->acceleration, kForceNames);
+  for (const LoadDescription& load : scene.loads)
+    plan.forces.loads.push_back(
+        {load.name,
+         build_shape(load.region, scene.file.parent_path(), scene.simulation.cell_size / 2, plan.warnings,
+                     problems, fmt::format("loads.{}.region", load.name)),
+         VectorFormula(load.force, kForceNames)});
   if (scene.domain)
     plan.effects.domain =
         DomainWalls{scene.domain->min, scene.domain->max, scene.domain->contact, scene.domain->friction};
@@ -155,7 +165,7 @@ int Plan::frames() const {
 Plan make_plan(SceneDescription scene) {
   Plan plan;
   Problems problems;
-  plan.path = plan_path(scene.simulation);
+  plan.path = plan_path(scene);
   plan_batches(scene, plan);
   plan_bodies(scene, plan, problems);
   plan_effects(scene, plan, problems);

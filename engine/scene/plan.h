@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/effects/grid_effects.h"
+#include "engine/effects/particle_forces.h"
 #include "engine/scene/attributes.h"
 #include "engine/scene/description.h"
 #include "engine/vector/isa.h"
@@ -39,6 +40,7 @@ struct Plan {
   std::vector<BatchPlan> batches;
   std::vector<BodyPlan> bodies;
   GridEffects effects;
+  ForceEffects forces;
   PathPlan path;
   std::vector<const Attribute*> attributes;  // beside P v id pscale
   std::vector<std::string> warnings;

@@ -57,6 +57,14 @@ class SchemaWriter {
     add_value(key, {{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 3}, {"maxItems", 3}},
               std::array{value[0], value[1], value[2]});
   }
+  void quantities(const Key& key, const VectorQuantity& value, std::span<const std::string_view>) {
+    Json defaults = Json::array();
+    for (const Quantity& q : value) defaults.push_back(q.formula.empty() ? Json(q.number) : Json(q.formula));
+    add_value(
+        key,
+        {{"type", "array"}, {"items", {{"type", {"number", "string"}}}}, {"minItems", 3}, {"maxItems", 3}},
+        defaults);
+  }
   void attributes(const Key& key, const std::vector<Name>&);
   void model(const Key& key, const MaterialDescription&);
   void kind(const Key& key, const ShapeDescription::Kind&);

@@ -25,6 +25,21 @@ std::size_t count_outside(const DomainWalls& domain, int dimension, const std::v
   }));
 }
 
+/// A load on nothing would be missed only by who looks for what it does.
+void check_loads(const Plan& plan, std::span<const Seeds> seeds) {
+  Problems problems;
+  for (std::size_t l = 0; l < plan.forces.loads.size(); ++l) {
+    const auto loaded = [&](const Seeds& body) {
+      const std::vector<bool> in = inside(*plan.forces.loads[l].region, body.position);
+      return std::find(in.begin(), in.end(), true) != in.end();
+    };
+    if (std::any_of(seeds.begin(), seeds.end(), loaded)) continue;
+    problems.add(plan.scene.loads[l].region.mark, fmt::format("loads.{}.region", plan.forces.loads[l].name),
+                 "no particle starts in it; allowed: a region with one or more");
+  }
+  problems.throw_if_any();
+}
+
 }  // namespace
 
 std::vector<std::string> check_seeds(const Plan& plan, std::span<const Seeds> seeds) {
@@ -51,6 +66,7 @@ std::vector<Seeds> seed_bodies(const Plan& plan, std::vector<std::string>& warni
   for (std::size_t b = 0; b < plan.bodies.size(); ++b)
     seeds.push_back(seed_body(plan.scene.bodies[b], plan.bodies[b].shape.get(), s.dimension, s.cell_size,
                               s.seed, b, plan.scene.file.parent_path(), warnings));
+  check_loads(plan, seeds);
   for (std::string& warning : check_seeds(plan, seeds)) warnings.push_back(std::move(warning));
   return seeds;
 }

@@ -15,7 +15,8 @@ namespace firn {
 /// `seeds`: one per body.
 std::vector<std::string> check_seeds(const Plan& plan, std::span<const Seeds> seeds);
 
-/// The particles of all bodies, one entry per body; what is doubtful about them goes to `warnings`.
+/// The particles of all bodies, one entry per body; what is doubtful about them goes to `warnings`. Throws
+/// Error{input} when a load acts on none of them.
 std::vector<Seeds> seed_bodies(const Plan& plan, std::vector<std::string>& warnings);
 
 }  // namespace firn

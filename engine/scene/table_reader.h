@@ -39,6 +39,7 @@ class TableReader {
   template <class T>
   void file(const Key& key, T& out);
   void vector(const Key& key, Vec3& out, Axes axes = Axes::along);
+  void quantities(const Key& key, VectorQuantity& out, std::span<const std::string_view> names);
   void attributes(const Key& key, std::vector<Name>& out);
   void model(const Key& key, MaterialDescription& out);
   void kind(const Key& key, ShapeDescription::Kind& out);
@@ -71,6 +72,8 @@ class TableReader {
   void refuse(std::string_view key, const toml::node& node, std::string_view allowed);
   void refuse(std::string_view key, const toml::node& node, std::string_view element, std::string message);
 
+  const toml::array* read_three(const Key& key, std::string_view allowed);
+  bool check_axis(const Key& key, const toml::node& node, bool zero, Axes axes, int axis);
   std::optional<double> read_real(std::string_view key, const toml::node& node, std::string_view allowed,
                                   const Range& range);
   std::optional<std::int64_t> read_integer(const Key& key, const IntegerRange& range);

@@ -1,4 +1,6 @@
 // The keys of fields.h whose values have a form of their own.
+#include <fmt/ranges.h>
+
 #include "engine/base/nearest_name.h"
 #include "engine/scene/attributes.h"
 #include "engine/scene/shape_types.h"
@@ -15,25 +17,63 @@ void TableReader::name(const Key& key, Name& out) {
   if (auto value = read_text(key, "a name in quotes")) out = std::move(*value);
 }
 
+const toml::array* TableReader::read_three(const Key& key, std::string_view allowed) {
+  const toml::node* node = find(key, allowed);
+  if (!node) return nullptr;
+  const toml::array* array = node->as_array();
+  if (array && array->size() == 3) return array;
+  refuse(key.name, *node, allowed);
+  return nullptr;
+}
+
+/// Whether the scene has that axis, if the component on it is not 0; else that is reported.
+bool TableReader::check_axis(const Key& key, const toml::node& node, bool zero, Axes axes, int axis) {
+  if (zero || has_axis(axes, axis, context_.dimension.value_or(3))) return true;
+  refuse(key.name, node, fmt::format("[{}]", axis),
+         found_and_allowed(node, fmt::format("0, for the scene has dimension {}", *context_.dimension)));
+  return false;
+}
+
 void TableReader::vector(const Key& key, Vec3& out, Axes axes) {
   const std::string unit = key.unit == "-" ? "" : fmt::format(" ({})", key.unit);
-  const std::string allowed = "[x, y, z], three numbers" + unit;
-  const toml::node* node = find(key, allowed);
-  if (!node) return;
-  const toml::array* array = node->as_array();
-  if (!array || array->size() != 3) return refuse(key.name, *node, allowed);
+  const toml::array* array = read_three(key, "[x, y, z], three numbers" + unit);
+  if (!array) return;
   for (int axis = 0; axis < 3; ++axis) {
-    const std::string element = fmt::format("[{}]", axis);
     const toml::node& number = (*array)[static_cast<std::size_t>(axis)];
     const double value = number.value<double>().value_or(std::numeric_limits<double>::quiet_NaN());
     if (!number.is_number() || !kAnyNumber.allows(value)) {
-      refuse(key.name, number, element, found_and_allowed(number, allowed_number(kAnyNumber, key.unit)));
-    } else if (value != 0 && !has_axis(axes, axis, context_.dimension.value_or(3))) {
-      refuse(
-          key.name, number, element,
-          found_and_allowed(number, fmt::format("0, for the scene has dimension {}", *context_.dimension)));
-    } else {
+      refuse(key.name, number, fmt::format("[{}]", axis),
+             found_and_allowed(number, allowed_number(kAnyNumber, key.unit)));
+    } else if (check_axis(key, number, value == 0, axes, axis)) {
       out[axis] = value;
+    }
+  }
+}
+
+void TableReader::quantities(const Key& key, VectorQuantity& out, std::span<const std::string_view> names) {
+  const std::string each =
+      fmt::format("{} or a formula in quotes, of {}, with {}", allowed_number(kAnyNumber, key.unit),
+                  fmt::join(names, ", "), formula_words());
+  const toml::array* array = read_three(key, "[x, y, z], each " + each);
+  if (!array) return;
+  for (int axis = 0; axis < 3; ++axis) {
+    const toml::node& node = (*array)[static_cast<std::size_t>(axis)];
+    const std::string element = fmt::format("[{}]", axis);
+    Quantity& quantity = out[static_cast<std::size_t>(axis)];
+    const double value = node.value<double>().value_or(std::numeric_limits<double>::quiet_NaN());
+    if (node.is_string()) {
+      const std::string& text = node.as_string()->get();
+      try {
+        const Formula formula(text, names);
+        if (check_axis(key, node, false, Axes::along, axis)) quantity.formula = text;
+      } catch (const FormulaError& error) {
+        refuse(key.name, node, element,
+               fmt::format("found '{}': {}; allowed: {}", printable(text), error.what(), each));
+      }
+    } else if (!node.is_number() || !kAnyNumber.allows(value)) {
+      refuse(key.name, node, element, found_and_allowed(node, each));
+    } else if (check_axis(key, node, value == 0, Axes::along, axis)) {
+      quantity.number = value;
     }
   }
 }

@@ -43,6 +43,14 @@ void TomlWriter::vector(const Key& key, const Vec3& value, Axes) {
   add(key, fmt::format("[{}, {}, {}]", value[0], value[1], value[2]));
 }
 
+void TomlWriter::quantities(const Key& key, const VectorQuantity& value, std::span<const std::string_view>) {
+  std::array<std::string, 3> words;
+  std::transform(value.begin(), value.end(), words.begin(), [](const Quantity& q) {
+    return q.formula.empty() ? fmt::format("{}", q.number) : quote(q.formula);
+  });
+  add(key, fmt::format("[{}]", fmt::join(words, ", ")));
+}
+
 void TomlWriter::attributes(const Key& key, const std::vector<Name>& value) {
   std::vector<std::string> words, known;
   for (const Name& name : value) words.push_back(quote(name.text));

@@ -47,6 +47,7 @@ class TomlWriter {
   void file(const Key& key, const Name& value) { add(key, quote(value.text)); }
   void file(const Key& key, const std::optional<Name>& value) { add(key, value ? quote(value->text) : ""); }
   void vector(const Key& key, const Vec3& value, Axes = Axes::along);
+  void quantities(const Key& key, const VectorQuantity& value, std::span<const std::string_view> names);
   void attributes(const Key& key, const std::vector<Name>& value);
   void model(const Key& key, MaterialDescription& value);
   void kind(const Key& key, ShapeDescription::Kind& value);

@@ -8,6 +8,7 @@
 #include "engine/base/error.h"
 #include "engine/passes/totals.h"
 #include "engine/simulation/attribute_views.h"
+#include "engine/simulation/copy_points.h"
 #include "engine/simulation/seed_batches.h"
 #include "engine/simulation/simulation.h"
 
@@ -45,6 +46,14 @@ class ParticleSimulation : public Simulation {
     for (const Attribute* a : plan_->attributes)
       out.attributes.push_back(attribute_view<Real, D>(batches, a->name, a->components));
     frame_seconds_ += seconds_since(start);
+    return out;
+  }
+
+  MaterialPoints material_points() const override {
+    MaterialPoints out(count_);
+    for (std::size_t b = 0; b < batches_.size(); ++b)
+      std::visit([&](const auto& model) { copy_points<D>(model, batches_[b].particles, out); },
+                 plan_->batches[b].law);
     return out;
   }
 
@@ -127,13 +136,19 @@ class ParticleSimulation : public Simulation {
     steps_.dt_min = steps_.steps == 1 ? dt : std::min(steps_.dt_min, dt);
     steps_.dt_max = std::max(steps_.dt_max, dt);
   }
-  /// Mass of the lightest particle, kg.
-  double lightest() const {
-    Real m = std::numeric_limits<Real>::max();
+  /// kg
+  std::vector<double> masses_by_id() const {
+    std::vector<double> out(count_);
     for (const auto& batch : batches_)
       for (std::size_t p = 0; p < batch.particles.size(); ++p)
-        m = std::min(m, batch.particles.template view<Column::mass>().load(p));
-    return static_cast<double>(m);
+        out[batch.particles.id()[p]] =
+            static_cast<double>(batch.particles.template view<Column::mass>().load(p));
+    return out;
+  }
+  /// Mass of the lightest particle, kg.
+  double lightest() const {
+    const std::vector<double> masses = masses_by_id();
+    return *std::min_element(masses.begin(), masses.end());
   }
   std::size_t table_bytes() const {
     std::size_t sum = 0;

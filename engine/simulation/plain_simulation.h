@@ -17,13 +17,15 @@ class PlainSimulation final : public ParticleSimulation<Real, D> {
 
  public:
   PlainSimulation(const Plan& plan, std::span<const Seeds> seeds) : Base(plan, seeds, inertia()) {
+    if (plan.forces.any()) forces_.emplace(plan.forces, starts(seeds), this->masses_by_id());
     least_mass_ = static_cast<Real>(mass_cutoff(plan.scene.simulation) * this->lightest());
     run_materials(0);
   }
 
   void step(double dt, double) override {
     if (drift_ >= Kernel::farthest_drift * plan_->cell_size()) {
-      timed(PassTimes::sort, [&] { sorter_.sort(batches_, cell_size(), layout_, ColumnSet::all()); });
+      timed(PassTimes::sort,
+            [&] { sorter_.sort(batches_, cell_size(), layout_, ColumnSet::all().without(Column::force)); });
       drift_ = 0;
       ++this->sorts_;
     }
@@ -31,6 +33,7 @@ class PlainSimulation final : public ParticleSimulation<Real, D> {
     Motion motion;
     switch (plan_->scene.simulation.stress_order) {
       case StressOrder::usl:
+        update_forces(time_);
         project(dt);
         gather<kGatherAll>(dt, motion);
         break;
@@ -38,10 +41,12 @@ class PlainSimulation final : public ParticleSimulation<Real, D> {
         project(0);
         gather<Gathered{.deformation = true}>(dt, motion);
         run_materials(dt);
+        update_forces(time_ + dt);  // of the deformation that the stress belongs to
         project(dt);
         gather<Gathered{.velocity = true, .position = true}>(dt, motion);
         break;
       case StressOrder::musl:
+        update_forces(time_);
         project(dt);
         gather<Gathered{.velocity = true}>(dt, motion);
         std::swap(grid_, moved_);
@@ -64,15 +69,19 @@ class PlainSimulation final : public ParticleSimulation<Real, D> {
     out.push_back({"transfer",
                    {},
                    "p2g, g2p",
-                   this->seconds(PassTimes::p2g) + this->seconds(PassTimes::g2p),
+                   this->seconds(PassTimes::p2g) + this->seconds(PassTimes::g2p) - force_seconds_,
                    Base::column_bytes({Column::velocity, Column::affine})});
     out.push_back({"grid", {}, "grid", this->seconds(PassTimes::grid), grid_bytes() + layout_.bytes()});
+    if (forces_)
+      out.push_back(
+          {"forces", {}, "p2g", force_seconds_, forces_->bytes() + Base::column_bytes({Column::force})});
     Base::add_materials(material_seconds_, "material", out);
     return out;
   }
 
   std::size_t bytes() const override {
-    return this->table_bytes() + grid_bytes() + layout_.bytes() + sorter_.bytes();
+    return this->table_bytes() + grid_bytes() + layout_.bytes() + sorter_.bytes() +
+           (forces_ ? forces_->bytes() : 0);
   }
 
  private:
@@ -84,6 +93,21 @@ class PlainSimulation final : public ParticleSimulation<Real, D> {
     return grid_.nodes.bytes() + grid_.before.bytes() + moved_.nodes.bytes() + moved_.before.bytes();
   }
   Real cell_size() const { return static_cast<Real>(plan_->cell_size()); }
+
+  static std::vector<Vec3> starts(std::span<const Seeds> seeds) {
+    std::vector<Vec3> out;
+    for (const Seeds& body : seeds) out.insert(out.end(), body.position.begin(), body.position.end());
+    return out;
+  }
+
+  void update_forces(double time) {
+    if (!forces_) return;
+    const double before = this->seconds(PassTimes::p2g);
+    timed(PassTimes::p2g, [&] {
+      for (auto& batch : batches_) forces_->update(batch.particles, time);
+    });
+    force_seconds_ += this->seconds(PassTimes::p2g) - before;
+  }
 
   /// The particles' momentum on the grid, and on top of it the forces and effects of `dt`.
   void project(double dt) {
@@ -129,7 +153,9 @@ class PlainSimulation final : public ParticleSimulation<Real, D> {
   Sorter<Kernel, Real, D> sorter_;
   GridNodes<Real, D> grid_;
   GridNodes<Real, D> moved_;  // MUSL: what moves the particles, while grid_ has their new velocities
-  Real least_mass_;           // kg; lighter nodes are ignored
+  std::optional<ParticleForces> forces_;
+  double force_seconds_ = 0;
+  Real least_mass_;  // kg; lighter nodes are ignored
   std::vector<StepEffect<Real, D>> effects_;
   std::vector<MaterialReport> reports_;
   std::vector<double> material_seconds_;  // by batch

@@ -9,6 +9,38 @@
 
 namespace firn {
 
+/// The velocity that a body's description gives its particles: `velocity` and the spin about the centre.
+class StartVelocity {
+ public:
+  StartVelocity(const BodyDescription& body, const Seeds& seeds, double cell_size)
+      : velocity_(body.velocity, kPlaceNames),
+        spin_(body.angular_velocity * (std::numbers::pi / 180)),
+        step_(1e-5 * cell_size) {
+    for (const Vec3& x : seeds.position) centre_ += x / static_cast<double>(seeds.position.size());
+  }
+
+  Vec3 at(const Vec3& x) const { return formula(x) + spin_.cross(x - centre_); }
+  /// dv/dx_axis. A spin, and what the formula says, are affine velocities near a particle: with their
+  /// gradient in C, APIC lacks no momentum at t = 0.
+  Vec3 derivative(const Vec3& x, int axis) const {
+    Vec3 out = spin_.cross(Vec3::Unit(axis));
+    if (velocity_.constant()) return out;
+    // Second-order: 1e-10 of a velocity that varies over a cell, beside the rounding of its values.
+    const Vec3 aside = step_ * Vec3::Unit(axis);
+    return out + (formula(x + aside) - formula(x - aside)) / (2 * step_);
+  }
+
+ private:
+  Vec3 formula(const Vec3& x) const {
+    const auto v = velocity_({x.data(), 3});
+    return {v[0], v[1], v[2]};
+  }
+
+  VectorFormula velocity_;
+  Vec3 spin_, centre_ = Vec3::Zero();
+  double step_;  // m, of the differences
+};
+
 /// One batch per material of the plan; ids count through the bodies in the order of the scene.
 template <class Real, int D>
 std::vector<Batch<Real, D>> seed_batches(const Plan& plan, std::span<const Seeds> seeds) {
@@ -22,18 +54,15 @@ std::vector<Batch<Real, D>> seed_batches(const Plan& plan, std::span<const Seeds
   std::uint32_t id = 0;
   for (std::size_t b = 0; b < seeds.size(); ++b) {
     const Seeds& body = seeds[b];
-    const BodyDescription& description = plan.scene.bodies[b];
     const std::size_t batch = plan.bodies[b].batch;
     auto& table = batches[batch].particles;
     const double volume = body.volume / static_cast<double>(body.position.size());
-    const Vec3 spin = description.angular_velocity * (std::numbers::pi / 180);
-    Vec3 centre = Vec3::Zero();
-    for (const Vec3& x : body.position) centre += x / static_cast<double>(body.position.size());
+    const StartVelocity start(plan.scene.bodies[b], body, plan.cell_size());
     const auto F_one = Matrix<Real, D>::identity();
     for (std::size_t k = 0; k < body.position.size(); ++k, ++id) {
       const std::size_t p = next[batch]++;
       const Vec3& x = body.position[k];
-      Vec3 v = description.velocity + spin.cross(x - centre);
+      Vec3 v = start.at(x);
       if (!body.velocity.empty()) v += body.velocity[k];
       table.template view<Column::position>().store(p, to_vector<Real, D>(x));
       table.template view<Column::velocity>().store(p, to_vector<Real, D>(v));
@@ -43,11 +72,9 @@ std::vector<Batch<Real, D>> seed_batches(const Plan& plan, std::span<const Seeds
       if (table.columns().has(Column::plastic_deformation))
         table.template view<Column::plastic_deformation>().store(p, F_one);
       if (table.columns().has(Column::affine)) {
-        // A rigid spin is an affine velocity: C is its matrix, so that no angular momentum is missing at t =
-        // 0.
         Matrix<Real, D> C;
         for (int j = 0; j < D; ++j) {
-          const Vec3 column = spin.cross(Vec3::Unit(j));
+          const Vec3 column = start.derivative(x, j);
           for (int i = 0; i < D; ++i) C(i, j) = static_cast<Real>(column[i]);
         }
         table.template view<Column::affine>().store(p, C);

@@ -34,6 +34,17 @@ struct Cost {
 /// `ignored_nodes`: nodes lighter than simulation.mass_cutoff allows.
 inline constexpr std::array<const char*, 2> kCounters{"capped", "ignored_nodes"};
 
+/// Every particle in double, by its id: the order of the seeds, body after body. For comparisons; caches are
+/// written from a FrameView.
+struct MaterialPoints {
+  explicit MaterialPoints(std::size_t n)
+      : position(n, Vec3::Zero()), velocity(n, Vec3::Zero()), stress(n, Eigen::Matrix3d::Zero()), mass(n) {}
+
+  std::vector<Vec3> position, velocity;  // m, m/s
+  std::vector<Eigen::Matrix3d> stress;   // Pa, Cauchy's, positive in tension; 0 on axes that are missing
+  std::vector<double> mass;              // kg
+};
+
 class Simulation {
  public:
   virtual ~Simulation() = default;
@@ -59,6 +70,9 @@ class Simulation {
   /// Particles, totals and counters as they stand; valid until the next step. The counters start again at
   /// zero.
   virtual FrameView view() = 0;
+
+  /// As view() sees them.
+  virtual MaterialPoints material_points() const = 0;
 
   virtual std::size_t particles() const = 0;
   /// Steps so far that sorted, blocks in use and those of them with particles, bytes held by particles and

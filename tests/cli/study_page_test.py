@@ -122,7 +122,7 @@ def sample_study(runs, **others):
                  "date": "2026-11-23", "repeats": 3},
         "time": 3.0,
         "truth": {"type": "finest", "text": "the finest runs of this scene",
-                  "order": 1.97, "extrapolated": True, "levels": [0.0125, 0.00625, 0.003125],
+                  "order": {"displacement": 1.97, "velocity": None, "stress": 1.5}, "levels": [0.0125, 0.00625, 0.003125],
                   "uncertainty": {name: UNCERTAINTY * size for name, size in QUANTITIES.items()}},
         "axes": ["cell_size", "kernel", "transfer", "cfl"], "quantities": list(QUANTITIES), "runs": runs,
         "front": {quantity: [run["id"] for run in front] for quantity, front in fronts.items()},

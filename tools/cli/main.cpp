@@ -17,6 +17,9 @@
 #include "tools/cli/plan.h"
 #include "tools/cli/run.h"
 #include "tools/cli/schema.h"
+#include "tools/cli/study/child.h"
+#include "tools/cli/study/reader.h"
+#include "tools/cli/study/study.h"
 #include "tools/cli/version.h"
 
 namespace {
@@ -102,6 +105,47 @@ void add_bench(CLI::App& app, Action& action) {
   c->callback([=, &action] { action = [=] { return firn::run_bench(*options, std::cout); }; });
 }
 
+void add_study(CLI::App& app, Action& action) {
+  auto options = std::make_shared<firn::StudyOptions>();
+  auto example = std::make_shared<bool>(false);
+  CLI::App* c = add(app, "study", "Measure what accuracy costs in time, over any settings of any scene",
+                    "firn study tools/study/bar.toml --error 1%");
+  CLI::Option* study = c->add_option("study", options->study, "The study file");
+  c->add_option("--out", options->out,
+                "Folder for the results; out/NAME if left out. What is there is not run again");
+  c->add_flag("--list", options->list, "Only list the runs with the time each will take");
+  c->add_option("--of", options->quantity, "The quantity whose errors are printed [displacement]")
+      ->check(CLI::IsMember({"displacement", "velocity", "stress"}));
+  CLI::Option* error =
+      c->add_option("--error", options->error,
+                    "Print the settings that reach this error soonest, to paste after firn run")
+          ->type_name("ERROR");
+  c->add_option("--budget", options->budget, "Print the most accurate settings within this time")
+      ->type_name("TIME")
+      ->excludes(error);
+  c->add_flag("--example", *example, "Print a commented study with every key")->excludes(study);
+  c->callback([=, &action] {
+    if (options->study.empty() && !*example) throw CLI::RequiredError("study");
+    action = [=] {
+      if (!*example) return firn::run_study(*options, std::cout);
+      std::cout << firn::example_study();
+      return 0;
+    };
+  });
+}
+
+/// What a study starts for each of its runs.
+void add_study_child(CLI::App& app, Action& action) {
+  auto options = std::make_shared<firn::StudyChildOptions>();
+  CLI::App* c = app.add_subcommand("study-run")->group("");
+  c->add_option("scene", options->scene)->required();
+  add_overrides(c, options->overrides);
+  c->add_option("--threads", options->threads);
+  c->add_option("--repeats", options->repeats);
+  c->add_option("--points", options->points)->required();
+  c->callback([=, &action] { action = [=] { return firn::run_study_child(*options, std::cout); }; });
+}
+
 void add_element(CLI::App& app, Action& action) {
   CLI::App* c = add(app, "element", "Drive single material points: JSON lines in, JSON lines out",
                     "echo "
@@ -148,6 +192,8 @@ int run(CLI::App& app, int argc, char** argv) {
   add_run(app, action);
   add_plan(app, action);
   add_bench(app, action);
+  add_study(app, action);
+  add_study_child(app, action);
   add_element(app, action);
   add_materials(app, action);
   add_schema(app, action);

@@ -50,6 +50,8 @@ std::vector<Effect> effects(const Plan& plan) {
   std::vector<std::string> colliders;
   for (const Collider& c : grid.colliders)
     colliders.push_back(fmt::format("{} ({})", c.name, name(c.contact)));
+  std::vector<std::string> loads;
+  for (const Load& load : plan.forces.loads) loads.push_back(load.name);
   const bool affine =
       plan.scene.simulation.transfer == Transfer::apic || plan.scene.simulation.transfer == Transfer::mls;
   const bool increments = plan.scene.simulation.transfer == Transfer::flip;
@@ -61,6 +63,10 @@ std::vector<Effect> effects(const Plan& plan) {
       {"affine velocity", affine, affine ? "C stored" : "no C"},
       {"velocity increments", increments, increments ? "second grid velocity" : "one grid velocity"},
       {"gravity", grid.gravity.has_value(), grid.gravity ? "every node" : "no pass"},
+      {"body force", plan.forces.acceleration.has_value(),
+       plan.forces.acceleration ? "every particle, f stored" : "no pass"},
+      {"loads", !plan.forces.loads.empty(),
+       plan.forces.loads.empty() ? "no pass" : fmt::format("{}", fmt::join(loads, ", "))},
       {"colliders", !grid.colliders.empty(),
        grid.colliders.empty() ? "no pass" : fmt::format("{}", fmt::join(colliders, ", "))},
       {"moving colliders", keyframes, keyframes ? "posed each step" : "nothing moves"},

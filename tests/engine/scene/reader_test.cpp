@@ -39,7 +39,7 @@ TEST_CASE("a scene with only what is required has every other value at its defau
   CHECK(ball.material.text == "snow");
   CHECK(ball.sampling == Sampling::jittered);
   CHECK(ball.particles_per_cell == 8);
-  CHECK(ball.velocity == Vec3::Zero());
+  CHECK(ball.velocity == VectorQuantity{});
   CHECK_FALSE(ball.points);
   REQUIRE(ball.shape);
   const auto& sphere = std::get<SphereDescription>(ball.shape->kind);
@@ -75,18 +75,20 @@ TEST_CASE("every key of every section arrives at its member") {
   CHECK(d.simulation.mass_cutoff == 1e-5);
   CHECK(d.simulation.seed == 77);
   CHECK(d.gravity == Vec3(1, 2, 3));
+  REQUIRE(d.body_force);
+  CHECK(d.body_force->acceleration == VectorQuantity{{{0, "sin(t)"}, {}, {0, "X + y"}}});
   REQUIRE(d.materials.size() == 2);
   CHECK(d.materials[0].name == "wet");  // in the order of the file
   CHECK(d.materials[1].name == "dry");
   CHECK(std::get<double>(d.materials[0].parameters.at("density").value) == 500);
   CHECK(std::get<double>(d.materials[0].parameters.at("hardening_cap").value) ==
         std::numeric_limits<double>::infinity());
-  CHECK(d.materials[0].parameters.at("density").mark.line == 24);
+  CHECK(d.materials[0].parameters.at("density").mark.line == 27);
 
   REQUIRE(d.bodies.size() == 3);
   CHECK(d.bodies[0].sampling == Sampling::poisson);
   CHECK(d.bodies[0].particles_per_cell == 4.5);
-  CHECK(d.bodies[0].velocity == Vec3(1, -2, 3));
+  CHECK(d.bodies[0].velocity == VectorQuantity{{{1, {}}, {0, "-2 * z"}, {3, {}}}});
   CHECK(d.bodies[0].angular_velocity == Vec3(10, 20, 30));
   CHECK(d.bodies[1].points->text == "grains.csv");
   CHECK_FALSE(d.bodies[1].shape);
@@ -103,6 +105,11 @@ TEST_CASE("every key of every section arrives at its member") {
   CHECK(d.colliders[1].keyframes[1].position == Vec3(0, 0, 2));
   CHECK(d.colliders[1].keyframes[1].rotation == Vec3(0, 90, 0));
 
+  REQUIRE(d.loads.size() == 1);
+  CHECK(d.loads[0].name == "press");
+  CHECK(std::get<BoxDescription>(d.loads[0].region.kind).max == Vec3(1, 1, 1));
+  CHECK(d.loads[0].force == VectorQuantity{{{}, {0, "-10 * min(t, 1)"}, {}}});
+
   REQUIRE(d.domain);
   CHECK(d.domain->min == Vec3(-1, -2, -3));
   CHECK(d.domain->max == Vec3(1, 2, 3));
@@ -111,7 +118,7 @@ TEST_CASE("every key of every section arrives at its member") {
   REQUIRE(d.output.attributes.size() == 2);
   CHECK(d.output.attributes[0].text == "F_E");
   CHECK(d.output.attributes[1].text == "Jp");
-  CHECK(d.output.attributes[1].mark.line == 84);
+  CHECK(d.output.attributes[1].mark.line == 92);
 }
 
 TEST_CASE("every type of shape arrives with its numbers") {

@@ -1,14 +1,13 @@
 // The page around plots and tables: what was studied, what is shown, the legend, the command of a picked run.
 
 function truthText() {
-  const {text = "", order = null, extrapolated = false, levels = [], uncertainty = {}} = study.truth;
+  const {text = "", order = {}, uncertainty = {}} = study.truth;
   const amount = name => `${errorText(uncertainty[name], short)} (${name})`;
+  const observed = study.quantities.filter(quantity => order[quantity] != null);
   const known = study.quantities.filter(quantity => (uncertainty?.[quantity] ?? 0) > 0);
   return [
     text,
-    levels.length ? `cells of ${levels.map(settingText).join(", ")} m` : "",
-    order === null ? "" : `observed order ${order.toFixed(2)}`,
-    extrapolated ? "extrapolated to cells of no size" : "",
+    observed.length ? `observed order ${observed.map(q => `${order[q].toFixed(2)} (${q})`).join(", ")}` : "",
     known.length ? `uncertain by ${known.map(amount).join(", ")}` : "",
   ].filter(Boolean).join("; ");
 }

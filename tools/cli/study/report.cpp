@@ -1,0 +1,183 @@
+#include "tools/cli/study/report.h"
+
+#include <algorithm>
+#include <ctime>
+#include <fstream>
+#include <thread>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include "tools/cli/study/page.h"
+#include "tools/cli/version.h"
+
+namespace firn {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string machine_name() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  return "unknown processor";
+}
+
+Json truth_json(const StudyDescription& study, const Truth& truth) {
+  Json uncertainty, order;
+  for (std::size_t q = 0; q < kQuantities; ++q) {
+    const auto quantity = static_cast<StudyQuantity>(q);
+    if (!truth.knows(quantity)) continue;
+    uncertainty[std::string(kQuantityNames[q])] = truth.uncertainty(quantity);
+    const auto p = truth.order(quantity);
+    order[std::string(kQuantityNames[q])] = p ? Json(*p) : Json(nullptr);
+  }
+  const auto* finest = std::get_if<FinestRuns>(&study.truth);
+  return {{"type", finest != nullptr ? "finest" : "closed_form"},
+          {"text", truth.text()},
+          {"order", order},
+          {"levels", finest != nullptr ? Json(finest->cell_sizes) : Json::array()},
+          {"uncertainty", uncertainty}};
+}
+
+/// An error that is not well above what the truth itself is off by.
+bool greyed(const Json& run, const Json& uncertainty) {
+  return std::any_of(uncertainty.items().begin(), uncertainty.items().end(), [&](const auto& item) {
+    const auto error = error_of(run, item.key());
+    return error && *error < 10 * item.value().template get<double>();
+  });
+}
+
+// Values hold no line breaks; words from a scene may hold commas and quotes.
+std::string csv_field(const Json& value) {
+  if (value.is_null()) return "";
+  if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
+  const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + '"';
+}
+
+/// Name and value of each column of a run.
+std::vector<std::pair<std::string, Json>> columns(const Json& study, const Json& run) {
+  std::vector<std::pair<std::string, Json>> out{{"id", run["id"]}};
+  const auto all = [&](const std::string& prefix, const Json& names, const Json& values) {
+    for (const auto& item : names.items())
+      out.emplace_back(prefix + item.key(), values.is_object() ? values.value(item.key(), Json()) : Json());
+  };
+  const Json& model = study["runs"][0];
+  all("", model["settings"], run["settings"]);
+  for (const char* key : {"state", "particles", "steps", "dt"}) out.emplace_back(key, run[key]);
+  all("seconds_", {{"median", 0}, {"min", 0}, {"q1", 0}, {"q3", 0}, {"cpu", 0}, {"projected", 0}},
+      run["seconds"]);
+  all("seconds_", {{"sort", 0}, {"p2g", 0}, {"grid", 0}, {"g2p", 0}, {"material", 0}}, run["passes"]);
+  for (const char* key : {"work", "peak_bytes", "cache_bytes"}) out.emplace_back(key, run[key]);
+  for (const auto& quantity : study["quantities"]) {
+    const Json error =
+        run["error"].is_object() ? run["error"].value(quantity.get<std::string>(), Json()) : Json();
+    for (const char* norm : {"l2", "max"})
+      out.emplace_back(fmt::format("{}_{}", quantity.get<std::string>(), norm),
+                       error.is_object() ? error.value(norm, Json()) : Json());
+  }
+  all("drift_", {{"energy", 0}, {"momentum", 0}, {"angular", 0}}, run["drift"]);
+  out.emplace_back("greyed", run["greyed"]);
+  out.emplace_back("reason", run["reason"]);
+  return out;
+}
+
+std::string percent(double error) {
+  return fmt::format("{:.3g} %", 100 * error);
+}
+
+std::string seconds_text(double seconds) {
+  return seconds < 1 ? fmt::format("{:.3g} ms", 1000 * seconds) : fmt::format("{:.3g} s", seconds);
+}
+
+}  // namespace
+
+Json study_json(const StudyDescription& study, const Truth& truth, double time, const StudyRecords& runs) {
+  Json quantities = Json::array(), front, reach;
+  const Json facts = truth_json(study, truth);
+  for (const auto& item : facts["uncertainty"].items()) {
+    quantities.push_back(item.key());
+    front[item.key()] = Json::array();
+    for (const Json* run : pareto_front(runs, item.key())) front[item.key()].push_back((*run)["id"]);
+    for (const double error : kReachedErrors) {
+      const Json* run = cheapest(runs, item.key(), error);
+      reach[item.key()].push_back({{"error", error}, {"run", run != nullptr ? (*run)["id"] : Json(nullptr)}});
+    }
+  }
+  Json all = runs;
+  for (Json& run : all) run["greyed"] = greyed(run, facts["uncertainty"]);
+  return {{"format", "firn study 1"},
+          {"title", study.title},
+          {"description", study.description},
+          {"study", study.file.filename().string()},
+          {"scene", study.scene.lexically_normal().string()},
+          {"made",
+           {{"firn", kVersion},
+            {"compiler", __VERSION__},
+            {"machine", machine_name()},
+            {"cores", std::thread::hardware_concurrency()},
+            {"date", fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr)))},
+            {"repeats", study.repeats}}},
+          {"time", time},
+          {"truth", facts},
+          {"axes", axis_names(study)},
+          {"quantities", quantities},
+          {"runs", all},
+          {"front", front},
+          {"reach", reach}};
+}
+
+std::string study_csv(const Json& study) {
+  std::string out;
+  for (const Json& run : study["runs"]) {
+    std::string head, line;
+    for (const auto& [name, value] : columns(study, run)) {
+      head += (head.empty() ? "" : ",") + csv_field(name);
+      line += (line.empty() ? "" : ",") + csv_field(value);
+    }
+    if (out.empty()) out = head + "\n";
+    out += line + "\n";
+  }
+  return out;
+}
+
+std::string settings_text(const Json& study, const Json& run) {
+  std::string out;
+  for (const auto& axis : study["axes"]) {
+    const Json value = run["settings"].value(axis.get<std::string>(), Json());
+    if (value.is_null()) continue;
+    out += fmt::format("{}{} {}", out.empty() ? "" : ", ", axis.get<std::string>(),
+                       value.is_string() ? value.get<std::string>() : value.dump());
+  }
+  return out;
+}
+
+std::string study_page(const Json& study) {
+  return assemble_page(study.dump());
+}
+
+std::string study_summary(const Json& study, std::string_view quantity) {
+  const auto run_of = [&](const Json& id) {
+    return *std::find_if(study["runs"].begin(), study["runs"].end(),
+                         [&](const Json& run) { return run["id"] == id; });
+  };
+  const std::string name(quantity);
+  std::string out = fmt::format("error of {}, seconds, settings that no other run beats in both\n", name);
+  for (const Json& id : study["front"][name]) {
+    const Json run = run_of(id);
+    out +=
+        fmt::format("{:>9}  {:>8}  {}{}\n", percent(*error_of(run, name)), seconds_text(seconds_of(run)),
+                    settings_text(study, run), run["greyed"] ? "  (near the truth's own uncertainty)" : "");
+  }
+  out += "seconds to reach\n";
+  for (const Json& reach : study["reach"][name])
+    out += fmt::format("{:>9}  {:>8}\n", percent(reach["error"].get<double>()),
+                       reach["run"].is_null() ? "none" : seconds_text(seconds_of(run_of(reach["run"]))));
+  return out;
+}
+
+}  // namespace firn
