@@ -9,6 +9,7 @@
 #include "engine/base/error.h"
 #include "engine/shapes/combination.h"
 #include "engine/shapes/file_bytes.h"
+#include "engine/shapes/image.h"
 #include "engine/shapes/level_set.h"
 #include "engine/shapes/mesh_import.h"
 #include "engine/shapes/primitives.h"
@@ -90,7 +91,18 @@ class Builder {
 
   ShapePtr make(const LevelSetDescription& d, const Place& place) {
     const std::filesystem::path file = resolve_file(folder_, d.file.text);
-    return guarded(d.file, place, [&] { return read_level_set(file, d.grid); });
+    return guarded(d.file, place, [&] { return read_level_set(file, d.grid, d.threshold); });
+  }
+
+  ShapePtr make(const ImageDescription& d, const Place& place) {
+    const bool plane = d.size.z() == 0 && !names_a_stack(d.file.text);
+    const bool positive_size = d.size.x() > 0 && d.size.y() > 0 && (plane || d.size.z() > 0);
+    if (!positive_size || !d.size.allFinite())
+      return refuse(place, "size", "must be finite and greater than 0 along each axis");
+    const Bounds box =
+        plane ? Bounds{{0, 0, -kEndless}, {d.size.x(), d.size.y(), kEndless}} : Bounds{Vec3::Zero(), d.size};
+    const std::filesystem::path file = resolve_file(folder_, d.file.text);
+    return guarded(d.file, place, [&] { return read_image(file, box, d.threshold, d.solid); });
   }
 
   ShapePtr make(const CombinationDescription& d, const Place& place) {

@@ -103,6 +103,20 @@ struct ShapeCheck {
   }
   void operator()(const MeshDescription&) const { check_solid("mesh"); }
   void operator()(const LevelSetDescription&) const { check_solid("level_set"); }
+  void operator()(const ImageDescription& d) const {
+    const int dimension = reader.context().dimension.value_or(0);
+    if (dimension == 1)
+      reader.report("type", "found 'image'; allowed in dimensions 2 and 3, and the scene has dimension 1");
+    if (dimension == 2 && reader.good({"file"}) && names_a_stack(d.file.text)) {
+      reader.report("file",
+                    "found a stack of slices; allowed in dimension 3 only, and the scene has dimension 2");
+    }
+    for (int axis = 0; axis < dimension && reader.good({"size"}); ++axis) {
+      if (d.size[axis] > 0) continue;
+      reader.report(fmt::format("size[{}]", axis),
+                    fmt::format("found {}; allowed: a number > 0 (m)", d.size[axis]));
+    }
+  }
   void operator()(const CombinationDescription&) const {}
 
   void check_solid(std::string_view type) const {

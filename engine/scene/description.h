@@ -13,6 +13,7 @@
 #include "engine/base/problems.h"
 #include "engine/base/vector_formula.h"
 #include "engine/effects/contact.h"
+#include "engine/shapes/image.h"
 #include "engine/shapes/shape.h"
 
 namespace firn {
@@ -54,16 +55,24 @@ struct MeshDescription {
 };  // any format assimp reads
 struct LevelSetDescription {
   Name file;
-  std::string grid;
-};  // .vdb; empty: the first level set in it
+  std::string grid;                 // empty: the first that fits
+  std::optional<double> threshold;  // fog volumes only: solid is what is at least as dense
+};                                  // .vdb
+struct ImageDescription {
+  Name file;                 // PNG or PGM; with a run of '#' for the number, a stack of them
+  Vec3 size = Vec3::Zero();  // m; z is 0 in a plane scene
+  double threshold = 0.5;    // of the full range
+  SolidPixels solid = SolidPixels::bright;
+};  // with its lower corner at the origin
 struct CombinationDescription {
   enum class Operation { unite, subtract, intersect } operation;  // subtract: the first less all others
   std::vector<ShapeDescription> operands;
 };
 
 struct ShapeDescription {
-  using Kind = std::variant<SphereDescription, BoxDescription, CylinderDescription, ConeDescription,
-                            PlaneDescription, MeshDescription, LevelSetDescription, CombinationDescription>;
+  using Kind =
+      std::variant<SphereDescription, BoxDescription, CylinderDescription, ConeDescription, PlaneDescription,
+                   MeshDescription, LevelSetDescription, ImageDescription, CombinationDescription>;
   Kind kind;
   SourceMark mark;
   // Applied in this order: scale, rotate (about x, then y, then z), translate.

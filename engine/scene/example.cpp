@@ -123,11 +123,13 @@ std::string other_materials(TomlWriter::Explained& explained, const ModelInfo& s
 
 std::string bodies_from_files(TomlWriter::Explained& explained) {
   const std::array kinds = {shape(MeshDescription{{"statue.obj", {}}}),
-                            shape(LevelSetDescription{{"drift.vdb", {}}, "surface"})};
+                            shape(LevelSetDescription{{"drift.vdb", {}}, "surface", {}}),
+                            shape(ImageDescription{{"foam.####.png", {}}, {0.2, 0.2, 0.2}})};
+  const std::array names = {"statue", "drift", "foam"};
   std::string out = "\n# Bodies from files.\n";
-  for (const ShapeDescription& kind : kinds) {
-    const std::string name = std::holds_alternative<MeshDescription>(kind.kind) ? "statue" : "drift";
-    out += disabled(TomlWriter::table(explained, "bodies", "[[bodies]]", body(name, "snow", kind))) + "\n";
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    const BodyDescription from_file = body(names[i], "snow", kinds[i]);
+    out += disabled(TomlWriter::table(explained, "bodies", "[[bodies]]", from_file)) + "\n";
   }
   return out;
 }

@@ -48,6 +48,11 @@ inline constexpr std::array<Choice<Contact>, 3> kContacts = {{
     {"separating", Contact::separating, "slides along it and may leave it"},
 }};
 
+inline constexpr std::array<Choice<SolidPixels>, 2> kSolidPixels = {{
+    {"bright", SolidPixels::bright, "at or above the threshold"},
+    {"dark", SolidPixels::dark, "at or below it"},
+}};
+
 /// A description with every key at its default (Eigen leaves a plain Vec3{} uninitialised).
 template <class T>
 T defaults_of() {
@@ -148,7 +153,26 @@ void fields(V& v, MeshDescription& d) {
 template <class V>
 void fields(V& v, LevelSetDescription& d) {
   v.file({"file", Need::required, "OpenVDB file, relative to the scene"}, d.file);
-  v.text({"grid", Need::optional, "name of a level set in it; the first if left out"}, d.grid);
+  v.text({"grid", Need::optional,
+          "name of a level set or fog volume in it; if left out the first level set, or with a threshold or "
+          "without any level set the first fog volume"},
+         d.grid);
+  v.real({"threshold", Need::optional, "least density of a fog volume that is solid; 0.5 if left out", "-",
+          "0.5"},
+         d.threshold, kPositive);
+}
+
+template <class V>
+void fields(V& v, ImageDescription& d) {
+  using enum Need;
+  v.file({"file", required,
+          "PNG or PGM, relative to the scene; \"slice.####.png\" is a stack of slices along z, numbered"},
+         d.file);
+  v.vector({"size", required, "that it fills from its lower corner, the origin: across, up and along z", "m"},
+           d.size);
+  v.real({"threshold", optional, "where solid begins, between black (0) and white (1)"}, d.threshold,
+         kFraction);
+  v.choice({"solid", optional, "which pixels are solid"}, d.solid, kSolidPixels);
 }
 
 template <class V>

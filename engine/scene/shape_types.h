@@ -24,7 +24,7 @@ ShapeDescription::Kind make_combination() {
 }
 }  // namespace detail
 
-inline constexpr std::array<ShapeType, 10> kShapeTypes = {{
+inline constexpr std::array<ShapeType, 11> kShapeTypes = {{
     {"sphere", "a disc in 2D, an interval in 1D", detail::make_kind<SphereDescription>},
     {"box", "along the axes, unless rotated", detail::make_kind<BoxDescription>},
     {"cylinder", "with flat caps", detail::make_kind<CylinderDescription>},
@@ -33,6 +33,8 @@ inline constexpr std::array<ShapeType, 10> kShapeTypes = {{
      detail::make_kind<PlaneDescription>},
     {"mesh", "3D only", detail::make_kind<MeshDescription>},
     {"level_set", "3D only", detail::make_kind<LevelSetDescription>},
+    {"image", "a picture; in 3D the same all along z, or a stack of slices",
+     detail::make_kind<ImageDescription>},
     {"union", "all of them", detail::make_combination<CombinationDescription::Operation::unite>},
     {"difference", "the first less all others",
      detail::make_combination<CombinationDescription::Operation::subtract>},

@@ -1,8 +1,9 @@
-// Solids as level sets: from a triangle mesh and from a .vdb file. Plain header; only the three
-// level_set*.cpp see OpenVDB.
+// Solids as level sets: from a triangle mesh and from a .vdb file. Plain header; only
+// level_set*.cpp and vdb_reader.cpp see OpenVDB.
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,8 +20,11 @@ namespace firn {
 ShapePtr level_set_from_mesh(const TriangleMesh& mesh, const std::string& name, double voxel,
                              std::vector<std::string>& warnings);
 
-/// Grid `grid` of a .vdb file, or its first level set when `grid` is empty. The file is read in a child
-/// process, since damaged files can crash the reader. Throws Error{input}.
-ShapePtr read_level_set(const std::filesystem::path& file, const std::string& grid);
+/// Grid `grid` of a .vdb file: a level set, or a fog volume, which is solid where its density is at least
+/// `threshold` (0.5 if left out; no threshold for a level set). When `grid` is empty the first level set, or
+/// with a threshold or without any level set the first fog volume. The file is read in a child process, since
+/// damaged files can crash the reader. Throws Error{input}.
+ShapePtr read_level_set(const std::filesystem::path& file, const std::string& grid,
+                        std::optional<double> threshold = std::nullopt);
 
 }  // namespace firn

@@ -18,4 +18,11 @@ struct IndexFrame {
 /// everywhere.
 ShapePtr make_level_set_shape(openvdb::FloatGrid::ConstPtr grid, const IndexFrame& frame);
 
+/// How many voxels of surface lie on the faces of tiles: what a small file can hold any number of.
+double tile_surface(const openvdb::FloatGrid& fog, float threshold);
+
+/// `fog` as make_level_set_shape wants it: solid, also in and around closed pores, where the density is at
+/// least `threshold`. The transform of `fog` is the identity, and its background is less dense.
+openvdb::FloatGrid::Ptr level_set_of_fog(const openvdb::FloatGrid& fog, float threshold);
+
 }  // namespace firn

@@ -90,7 +90,7 @@ TEST_CASE("what is wrong with a shape is told at its place in the scene, all of 
   CHECK_THAT(build(d).problems, Contains("shape.scale: must be greater than 0"));
 
   const auto file = describe(MeshDescription{{"no.obj", {"s.toml", 5, 10}}}),
-             grid = describe(LevelSetDescription{{"no.vdb", {"s.toml", 6, 10}}, ""});
+             grid = describe(LevelSetDescription{{"no.vdb", {"s.toml", 6, 10}}, "", {}});
   const std::string both =
       build(describe(CombinationDescription{CombinationDescription::Operation::unite, {file, grid}}))
           .problems;

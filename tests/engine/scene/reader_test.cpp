@@ -85,7 +85,7 @@ TEST_CASE("every key of every section arrives at its member") {
         std::numeric_limits<double>::infinity());
   CHECK(d.materials[0].parameters.at("density").mark.line == 27);
 
-  REQUIRE(d.bodies.size() == 3);
+  REQUIRE(d.bodies.size() == 4);
   CHECK(d.bodies[0].sampling == Sampling::poisson);
   CHECK(d.bodies[0].particles_per_cell == 4.5);
   CHECK(d.bodies[0].velocity == VectorQuantity{{{1, {}}, {0, "-2 * z"}, {3, {}}}});
@@ -118,7 +118,7 @@ TEST_CASE("every key of every section arrives at its member") {
   REQUIRE(d.output.attributes.size() == 2);
   CHECK(d.output.attributes[0].text == "F_E");
   CHECK(d.output.attributes[1].text == "Jp");
-  CHECK(d.output.attributes[1].mark.line == 92);
+  CHECK(d.output.attributes[1].mark.line == 97);
 }
 
 TEST_CASE("every type of shape arrives with its numbers") {
@@ -156,6 +156,12 @@ TEST_CASE("every type of shape arrives with its numbers") {
   const auto& level_set = std::get<LevelSetDescription>(d.bodies[2].shape->kind);
   CHECK(level_set.file.text == "drift.vdb");
   CHECK(level_set.grid == "surface");
+  CHECK(level_set.threshold == 0.25);
+  const auto& image = std::get<ImageDescription>(d.bodies[3].shape->kind);
+  CHECK(image.file.text == "foam.##.png");
+  CHECK(image.size == Vec3(1, 2, 3));
+  CHECK(image.threshold == 0.75);
+  CHECK(image.solid == SolidPixels::dark);
 }
 
 TEST_CASE("a scene in the plane turns about z alone and takes no third coordinate") {

@@ -48,7 +48,7 @@ TEST_CASE("the example scene is read as it stands") {
 TEST_CASE("the example scene is read with its alternatives made live, one body a model") {
   const SceneDescription d = read(with_disabled_blocks());
   CHECK(d.materials.size() == models().size());
-  CHECK(d.bodies.size() == 2 + models().size() - 1 + 2);
+  CHECK(d.bodies.size() == 2 + models().size() - 1 + 3);
 }
 
 TEST_CASE("the example scene shows every key that the schema has") {
