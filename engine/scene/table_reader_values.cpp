@@ -51,9 +51,8 @@ void TableReader::vector(const Key& key, Vec3& out, Axes axes) {
 }
 
 void TableReader::quantities(const Key& key, VectorQuantity& out, std::span<const std::string_view> names) {
-  const std::string each =
-      fmt::format("{} or a formula in quotes, of {}, with {}", allowed_number(kAnyNumber, key.unit),
-                  fmt::join(names, ", "), formula_words());
+  const std::string each = fmt::format("{} or a formula in quotes, of {}",
+                                       allowed_number(kAnyNumber, key.unit), fmt::join(names, ", "));
   const toml::array* array = read_three(key, "[x, y, z], each " + each);
   if (!array) return;
   for (int axis = 0; axis < 3; ++axis) {
@@ -68,7 +67,8 @@ void TableReader::quantities(const Key& key, VectorQuantity& out, std::span<cons
         if (check_axis(key, node, false, Axes::along, axis)) quantity.formula = text;
       } catch (const FormulaError& error) {
         refuse(key.name, node, element,
-               fmt::format("found '{}': {}; allowed: {}", printable(text), error.what(), each));
+               fmt::format("found '{}': {}; allowed: {}, with {}", printable(text), error.what(), each,
+                           formula_words()));
       }
     } else if (!node.is_number() || !kAnyNumber.allows(value)) {
       refuse(key.name, node, element, found_and_allowed(node, each));

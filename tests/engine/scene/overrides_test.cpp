@@ -92,7 +92,7 @@ TEST_CASE("what is wrong with an override is said with the override in the place
         "--set bodies.2.velocity=[0,0,0]: bodies.2: found no element '2'; there are 2: ball, cube");
   check("bodies.0.velocity=[0,nan,0]",
         "--set bodies.0.velocity=[0,nan,0]: bodies[0].velocity[1]: found the number nan; allowed: any number "
-        "(m/s)");
+        "(m/s) or a formula in quotes, of x, y, z");
   check("domain.min=[0,0,0]",
         "--set domain.min=[0,0,0]: domain.max: missing; required: [x, y, z], three numbers (m)");
   check("title.x=1", "--set title.x=1: title: found a table; allowed: a text in quotes");
