@@ -26,16 +26,22 @@ struct Sums {
 
 std::array<ErrorNorms, kQuantities> errors(const std::vector<BodyPoints>& run,
                                            const std::vector<BodyPoints>& truth) {
+  return differences(run, truth, truth);
+}
+
+std::array<ErrorNorms, kQuantities> differences(const std::vector<BodyPoints>& a,
+                                                const std::vector<BodyPoints>& b,
+                                                const std::vector<BodyPoints>& scale) {
   std::array<Sums, kQuantities> sums;
-  for (std::size_t b = 0; b < run.size(); ++b)
-    for (std::size_t p = 0; p < run[b].size(); ++p) {
-      const double m = run[b].mass[p];
-      const auto add = [&](StudyQuantity q, const auto& is, const auto& should) {
-        sums[q].add(m, (is - should).norm(), should.norm());
+  for (std::size_t body = 0; body < a.size(); ++body)
+    for (std::size_t p = 0; p < a[body].size(); ++p) {
+      const auto add = [&](StudyQuantity q, auto column) {
+        const auto& of_b = (b[body].*column)[p];
+        sums[q].add(a[body].mass[p], ((a[body].*column)[p] - of_b).norm(), (scale[body].*column)[p].norm());
       };
-      add(kDisplacement, run[b].displacement[p], truth[b].displacement[p]);
-      add(kVelocity, run[b].velocity[p], truth[b].velocity[p]);
-      add(kStress, run[b].stress[p], truth[b].stress[p]);
+      add(kDisplacement, &BodyPoints::displacement);
+      add(kVelocity, &BodyPoints::velocity);
+      add(kStress, &BodyPoints::stress);
     }
   return {sums[kDisplacement].norms(), sums[kVelocity].norms(), sums[kStress].norms()};
 }

@@ -20,4 +20,9 @@ struct ErrorNorms {
 std::array<ErrorNorms, kQuantities> errors(const std::vector<BodyPoints>& run,
                                            const std::vector<BodyPoints>& truth);
 
+/// How far `a` is from `b`, relative to the norms of `scale`.
+std::array<ErrorNorms, kQuantities> differences(const std::vector<BodyPoints>& a,
+                                                const std::vector<BodyPoints>& b,
+                                                const std::vector<BodyPoints>& scale);
+
 }  // namespace firn

@@ -71,10 +71,10 @@ class FinestTruth : public Truth {
     const std::vector<BodyPoints>& coarse = levels_.front();
     const std::size_t last = levels_.size() - 1;
     const auto fine = level_at(last, coarse), before = level_at(last - 1, coarse);
-    const auto difference = errors(before, fine);
+    const auto difference = differences(before, fine, fine);
     const double ratio = sizes_[last - 1] / sizes_[last];
     std::array<ErrorNorms, kQuantities> first;
-    if (levels_.size() == 3) first = errors(coarse, before);
+    if (levels_.size() == 3) first = differences(coarse, before, fine);
     for (std::size_t q = 0; q < kQuantities; ++q) {
       Facts& facts = facts_[q];
       const double last_difference = difference[q].l2.value_or(0);

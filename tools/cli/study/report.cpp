@@ -48,6 +48,17 @@ bool greyed(const Json& run, const Json& uncertainty) {
   });
 }
 
+/// Those whose value is not the same in all runs.
+Json varying_axes(const StudyDescription& study, const StudyRecords& runs) {
+  Json out = Json::array();
+  for (const std::string& axis : axis_names(study)) {
+    const auto value = [&](const Json& run) { return run["settings"].value(axis, Json()); };
+    if (std::any_of(runs.begin(), runs.end(), [&](const Json& run) { return value(run) != value(runs[0]); }))
+      out.push_back(axis);
+  }
+  return out;
+}
+
 // Values hold no line breaks; words from a scene may hold commas and quotes.
 std::string csv_field(const Json& value) {
   if (value.is_null()) return "";
@@ -124,7 +135,7 @@ Json study_json(const StudyDescription& study, const Truth& truth, double time, 
             {"repeats", study.repeats}}},
           {"time", time},
           {"truth", facts},
-          {"axes", axis_names(study)},
+          {"axes", varying_axes(study, runs)},
           {"quantities", quantities},
           {"runs", all},
           {"front", front},

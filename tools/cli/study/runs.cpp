@@ -68,23 +68,28 @@ std::vector<std::string> keys_of(const std::string& axis, const SceneDescription
   return {axis.find('.') == std::string::npos ? "simulation." + axis : axis};
 }
 
+/// 2 instead of 2.0, as a study would write it.
+Json number_json(double x) {
+  return x == std::floor(x) && std::abs(x) < 1e15 ? Json(static_cast<std::int64_t>(x)) : Json(x);
+}
+
 /// The settings that every study shows.
 Json common_settings(const Plan& plan, int threads) {
   const SimulationDescription& s = plan.scene.simulation;
-  return {{"cell_size", s.cell_size},
+  return {{"cell_size", number_json(s.cell_size)},
           {"kernel", word_of(kKernels, s.kernel)},
           {"transfer", word_of(kTransfers, s.transfer)},
           {"stress_order", word_of(kStressOrders, s.stress_order)},
-          {"cfl", s.cfl},
-          {kPerCell, plan.scene.bodies.front().particles_per_cell},
+          {"cfl", number_json(s.cfl)},
+          {kPerCell, number_json(plan.scene.bodies.front().particles_per_cell)},
           {"precision", word_of(kPrecisions, s.precision)},
           {kThreads, threads}};
 }
 
 Json json_of(const std::string& toml) {
-  const Json number = Json::parse(toml, nullptr, false);
-  if (!number.is_discarded()) return number;
-  return toml;
+  const Json value = Json::parse(toml, nullptr, false);
+  if (value.is_number_float()) return number_json(value.get<double>());
+  return value.is_discarded() ? Json(toml) : value;
 }
 
 /// Files that the scene's shapes and points are read from: when one changes, so do the results.

@@ -16,7 +16,7 @@ struct StudyRun {
   std::vector<std::string> overrides;  // KEY=VALUE, all that apply to the scene
   int threads = 1, repeats = 1;
   /// By name: those that every study shows, and the axes of its sweeps.
-  nlohmann::ordered_json settings;
+  nlohmann::ordered_json settings = nlohmann::ordered_json::object();
   std::string refused;    // why the scene may not have these settings; empty: it may
   double projected = 0;   // s, of one repeat
   std::uint64_t key = 0;  // of all that its results depend on but the program and the truth
