@@ -129,6 +129,9 @@ double relative_transfers(const SimulationDescription& s) {
   return std::pow(nodes / QuadraticKernel::nodes, s.dimension) * passes;
 }
 
+/// ns a particle and step for formulas of forces, and a step of the plain path for starting its passes.
+constexpr double kForcesNs = 150, kPlainStepNs = 5000;
+
 }  // namespace
 
 StepCost step_cost(const PathPlan& path, int dimension, Precision precision) {
@@ -157,7 +160,7 @@ Estimate estimate(const Plan& plan) {
   StepCost cost = step_cost(plan.path, s.dimension, s.precision);
   cost.transfers *= relative_transfers(s);
   const double real = s.precision == Precision::double_ ? 8 : 4;
-  double step_ns = 0, widest = 0, occupied = 0;
+  double step_ns = plan.path.isa ? 0 : kPlainStepNs, widest = 0, occupied = 0;
   for (std::size_t b = 0; b < plan.bodies.size(); ++b) {
     const BodyDescription& body = plan.scene.bodies[b];
     const BatchPlan& batch = plan.batches[plan.bodies[b].batch];
@@ -168,6 +171,7 @@ Estimate estimate(const Plan& plan) {
     e.particle_bytes += n * (batch.columns.reals(s.dimension) * real + sizeof(std::uint32_t));
     widest = std::max(widest, n * s.dimension * s.dimension * real);
     const bool decomposes = find_model(batch.model)->decomposition != "none";
+    if (plan.forces.any()) step_ns += n * kForcesNs;
     step_ns += n * (cost.transfers + (decomposes ? cost.decomposition : cost.plain_energy));
     if (plan.bodies[b].shape) {
       const BlockCounts blocks = count_blocks(*plan.bodies[b].shape, s.dimension, s.cell_size);
