@@ -1,8 +1,11 @@
 #!/usr/bin/python3
-"""tools/scripts/scaling, prices, without-effects: the shape of what they print. How fast anything is, no test asks."""
+"""tools/scripts/scaling, prices, without-effects, study_plot: the shape of what they print. How fast anything is, no
+test asks."""
 
 import importlib.machinery
 import importlib.util
+import json
+import math
 import os
 import subprocess
 import sys
@@ -11,6 +14,7 @@ import xml.etree.ElementTree
 from firn_cli import SOURCE, FirnTest, main, programs
 
 SCRIPTS = os.path.join(SOURCE, "tools", "scripts")
+SVG = "{http://www.w3.org/2000/svg}"
 
 
 class ScriptTest(FirnTest):
@@ -63,10 +67,10 @@ class Scaling(ScriptTest):
         self.assertIn("clumps: cubes", caption)
 
         drawing = xml.etree.ElementTree.parse(self.svg).getroot()
-        words = ["".join(text.itertext()) for text in drawing.iter("{http://www.w3.org/2000/svg}text")]
+        words = words_of(drawing)
         for expected in ("ns a particle and step", "particles (8 in a cell)", "1 thread", "sheet", "clumps"):
             self.assertIn(expected, words)
-        dots = list(drawing.iter("{http://www.w3.org/2000/svg}circle"))
+        dots = list(drawing.iter(SVG + "circle"))
         self.assertEqual(len(dots), (2 + 5) * len(threads))
 
     def test_the_table_goes_to_a_file_on_request(self):
@@ -130,6 +134,124 @@ class WithoutEffects(ScriptTest):
             self.assertNotIn(effect, module.cut(text))
         with self.assertRaises(SystemExit):
             module.cut(text.replace("clock.lap(1 + e)", "clock.lap(e)"))
+
+
+class StudyPlot(ScriptTest):
+    def study(self, runs, **others):
+        file = self.path("study.json")
+        study = {"format": "firn study 1", "title": "Bars <thin> & long", "study": "bars.toml", "runs": runs,
+                 "made": {"machine": "a machine", "repeats": 3}, "quantities": ["displacement", "stress"],
+                 "front": {"displacement": ["0001", "0002", "0003"], "stress": ["0002"]}, **others}
+        with open(file, "w", encoding="utf-8") as out:
+            json.dump(study, out)
+        return file
+
+    def sample(self):
+        """Three runs of the front, one behind it, one without an error, two that failed, one that was refused."""
+        return [study_run(1, 0.002, 0.1, kernel="linear", cell_size=0.1), study_run(2, 0.02, 0.01, cell_size=0.05),
+                study_run(3, 0.3, 0.0005, transfer="flip", cell_size=0.025),
+                study_run(4, 0.2, 0.02, greyed=True, cell_size=0.05), study_run(5, 0.4, 0, kernel="cubic"),
+                study_run(6, 0.01, None, state="failed"), study_run(7, None, None, state="failed", kernel="gimp"),
+                study_run(8, None, None, state="refused", kernel="delta")]
+
+    def drawing(self, *arguments):
+        done = self.script("study_plot", *arguments, program=self.study(self.sample()))
+        return xml.etree.ElementTree.fromstring(done.stdout)
+
+    def group(self, drawing, name):
+        return list(drawing.find(f"{SVG}g[@class='{name}']"))
+
+    def test_finished_runs_are_marks_and_failed_ones_crosses(self):
+        drawing = self.drawing()
+        marks = self.group(drawing, "runs")
+        self.assertEqual(sorted(mark.tag for mark in marks), [SVG + "circle"] * 3 + [SVG + "polygon"])
+        # The grey one lies below the others; of these, coarse cells below fine ones.
+        self.assertEqual([mark.get("fill") for mark in marks], ["#c8cdd2", "#e69f00", "#0072b2", "#0072b2"])
+        radii = [float(mark.get("r")) for mark in marks[:3]]
+        self.assertEqual(radii[0], radii[2])
+        self.assertLess(radii[2], radii[1])
+        crosses = self.group(drawing, "failed")
+        self.assertEqual([cross.get("stroke") for cross in crosses], ["#0072b2", "#009e73"])
+
+    def test_the_front_goes_through_its_runs(self):
+        drawing = self.drawing()
+        (front,) = self.group(drawing, "front")
+        points = [tuple(map(float, point.split(","))) for point in front.get("points").split()]
+        self.assertEqual(len(points), 3)
+        disks = {(float(mark.get("cx")), float(mark.get("cy"))) for mark in self.group(drawing, "runs")[1:3]}
+        self.assertEqual(set(points[:2]), disks)
+        self.assertEqual(points, sorted(points))
+        # From 2 ms and 10 % to 20 ms and 1 %: a decade of either axis, of which two and a bit are shown.
+        (x0, y0), (x1, y1), (x2, y2) = points
+        self.assertAlmostEqual((x2 - x1) / (x1 - x0), math.log10(15), delta=0.01)
+        self.assertAlmostEqual((y2 - y1) / (y1 - y0), math.log10(20), delta=0.01)
+
+    def test_words_say_what_is_shown(self):
+        words = words_of(self.drawing())
+        for expected in ("Bars <thin> & long", "10 ms", "0.1 s", "10 %", "0.1 %", "linear", "flip", "0.025 m", "failed",
+                         "relative error of displacement (L2)", "time to compute (median of 3, a machine)",
+                         "near the truth's", "linear apic 0.1 m", "quadratic flip 0.025 m"):
+            self.assertIn(expected, [word.replace("\u00a0", " ") for word in words])
+        for absent in ("cubic", "delta", "pic"):
+            self.assertNotIn(absent, words)
+
+    def test_a_quantity_and_a_file_can_be_asked_for(self):
+        done = self.script("study_plot", "--quantity", "stress", "--out", "plot.svg", program=self.study(self.sample()))
+        self.assertEqual(done.stdout, "")
+        drawing = xml.etree.ElementTree.parse(self.path("plot.svg")).getroot()
+        self.assertIn("relative error of stress (L2)", words_of(drawing))
+        self.assertEqual(len(self.group(drawing, "front")[0].get("points").split()), 1)
+
+    def test_a_single_run_without_a_title_is_drawn(self):
+        file = self.study([study_run(1, 0.002, 0.1)], title="")
+        drawing = xml.etree.ElementTree.fromstring(self.script("study_plot", program=file).stdout)
+        self.assertEqual(len(self.group(drawing, "runs")), 1)
+        self.assertIsNone(drawing.find(f"{SVG}g[@class='failed']"))
+        self.assertIn("bars.toml", words_of(drawing))
+
+    def test_no_label_covers_another(self):
+        places = load("study_labels.py")
+        room = places.Room((0, 0, 300, 300), [])
+        spots = [room.place((x, y), 4, "quadratic flip") for x in range(0, 300, 15) for y in range(0, 300, 15)]
+        found = [spot.box for spot in spots if spot]
+        self.assertGreater(len(found), 10)
+        self.assertIn(None, spots)
+        for k, box in enumerate(found):
+            self.assertTrue(places.inside(box, room.frame))
+            self.assertFalse(any(places.overlap(box, other) for other in found[:k]))
+
+    def assert_mistake(self, message, *arguments, file):
+        done = self.script("study_plot", *arguments, program=file, code=2)
+        self.assertEqual(done.stdout, "")
+        self.assertRegex(done.stderr, rf"\Astudy_plot: .*{message}.*\n\Z")
+
+    def test_mistakes_are_told_in_one_line(self):
+        self.assert_mistake("nothing.json: No such file", file=self.path("nothing.json"))
+        good = self.study(self.sample())
+        self.assert_mistake("--quantity: invalid choice: 'mass'", "--quantity", "mass", file=good)
+        self.assert_mistake("no errors of velocity; it has those of displacement, stress", "--quantity", "velocity",
+                            file=good)
+        self.assert_mistake("none/plot.svg: No such file", "--out", "none/plot.svg", file=good)
+        for text, message in (("{", "no JSON: "), ("[]", "no study: "), ('{"format": "other"}', "no study: ")):
+            with open(self.path("bad.json"), "w", encoding="utf-8") as out:
+                out.write(text)
+            self.assert_mistake(message, file=self.path("bad.json"))
+        unfinished = [run for run in self.sample() if run["state"] != "finished"]
+        self.assert_mistake("no run finished with an error of displacement", file=self.study(unfinished))
+        self.assert_mistake("no run was compared", file=self.study(self.sample(), quantities=[]))
+
+
+def study_run(number, seconds, error, state="finished", greyed=False, **settings):
+    """As in study.json, what a plot needs of it."""
+    return {"id": f"{number:04d}", "state": state, "greyed": greyed,
+            "settings": {"kernel": "quadratic", "transfer": "apic", **settings},
+            "seconds": None if seconds is None else {"median": seconds},
+            "error": None if error is None else {name: {"l2": error, "max": error}
+                                                 for name in ("displacement", "stress")}}
+
+
+def words_of(drawing):
+    return ["".join(text.itertext()) for text in drawing.iter(SVG + "text")]
 
 
 def load(name):

@@ -4,6 +4,8 @@ same distance everywhere, and nearly empty blocks cost many times what full ones
 
 import math
 
+import svg_axes as svg
+
 WIDTH, HEIGHT = 800, 360
 TOP, BOTTOM = 46, 300
 PANELS = ((64, 480), (540, 784))  # left and right ends
@@ -16,8 +18,8 @@ def draw(by_count, by_cell, shapes):
     threads = sorted(rows[0].best)
     time = TimeAxis([ns(row, t) for row in rows for t in threads])
 
-    first = LogAxis(PANELS[0], [particles(row) for row in by_count + shapes], 10)
-    second = LogAxis(PANELS[1], [row.per_cell for row in by_cell], 2)
+    first = CountAxis(PANELS[0], [particles(row) for row in by_count + shapes], 10)
+    second = CountAxis(PANELS[1], [row.per_cell for row in by_cell], 2)
     parts = frame(first, time, f"particles ({by_count[0].per_cell} in a cell)", power_of_ten)
     parts += frame(second, time, f"particles in a cell ({power_of_ten(by_cell[0].count)} in all)", str)
     parts.append(text(PANELS[0][0], 20, "ns a particle and step", "start"))
@@ -32,10 +34,8 @@ def draw(by_count, by_cell, shapes):
             parts.append(text(x + 9, y + 4, row.shape, "start", colour))
         parts.append(text(PANELS[1][1] - 90 * (len(threads) - 1 - k), 20, f"{t} thread{'s' if t > 1 else ''}", "end",
                           colour))
-    return (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" width="{WIDTH}" height="{HEIGHT}" '
-            f'font-family="sans-serif" font-size="13">\n'
-            "<title>Nanoseconds a particle and step of snow, by particles and by particles in a cell</title>\n"
-            + "\n".join(parts) + "\n</svg>\n")
+    return svg.document(WIDTH, HEIGHT,
+                        "Nanoseconds a particle and step of snow, by particles and by particles in a cell", parts)
 
 
 def ns(row, threads):
@@ -46,39 +46,33 @@ def particles(row):
     return next(iter(row.best.values()))["particles"]
 
 
-class LogAxis:
-    """From value to place, with a tick at each power of `base`."""
+class CountAxis(svg.LogAxis):
+    """With a tick at each power of `base`."""
 
     def __init__(self, panel, values, base):
-        self.left, self.right = panel
-        self.base = base
-        self.low = math.floor(self.log(min(values)) + 0.05)
-        self.high = max(self.low + 1, math.ceil(self.log(max(values)) - 0.05))
-
-    def log(self, value):
-        return math.log(value) / math.log(self.base)
-
-    def at(self, value):
+        low = math.floor(math.log(min(values), base) + 0.05)
+        high = max(low + 1, math.ceil(math.log(max(values), base) - 0.05))
         # A margin, so that no marker stands on the frame.
-        inner = self.right - self.left - 24
-        return self.left + 12 + inner * (self.log(value) - self.low) / (self.high - self.low)
+        super().__init__(base**low, base**high, panel[0] + 12, panel[1] - 12)
+        self.left, self.right = panel
+        self.powers = [base**k for k in range(low, high + 1)]
 
     def ticks(self):
-        return [self.base**k for k in range(self.low, self.high + 1)]
+        return self.powers
 
 
-class TimeAxis:
-    """From nanoseconds to place, with ticks at 1, 2 and 5 times powers of ten."""
+class TimeAxis(svg.LogAxis):
+    """Nanoseconds, with ticks at 1, 2 and 5 times powers of ten."""
 
     def __init__(self, values):
         nice = [m * 10**k for k in range(7) for m in (1, 2, 5)]
         low = max((n for n in nice if n <= min(values)), default=nice[0])
         high = min((n for n in nice if n > max(values)), default=nice[-1])
-        self.ticks = [n for n in nice if low <= n <= high]
+        super().__init__(low, high, BOTTOM, TOP)
+        self.nice = [n for n in nice if low <= n <= high]
 
-    def at(self, value):
-        low, high = self.ticks[0], self.ticks[-1]
-        return BOTTOM - (BOTTOM - TOP) * math.log(value / low) / math.log(high / low)
+    def ticks(self):
+        return self.nice
 
 
 def power_of_ten(number):
@@ -89,23 +83,21 @@ def power_of_ten(number):
 
 
 def text(x, y, words, anchor, colour=TEXT):
-    return f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}" fill="{colour}">{words}</text>'
+    return svg.text(x, y, words, anchor, colour)
 
 
 def line(x1, y1, x2, y2, opacity):
-    return (f'<line x1="{x1:.1f}" y1="{y1:.1f}" x2="{x2:.1f}" y2="{y2:.1f}" stroke="{TEXT}" '
-            f'stroke-opacity="{opacity}"/>')
+    return svg.line(x1, y1, x2, y2, TEXT, opacity)
 
 
 def curve(points, colour):
-    path = " ".join(f"{x:.1f},{y:.1f}" for x, y in sorted(points))
     dots = [f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3.5" fill="{colour}"/>' for x, y in points]
-    return [f'<polyline points="{path}" fill="none" stroke="{colour}" stroke-width="2"/>', *dots]
+    return [svg.polyline(sorted(points), colour, 2), *dots]
 
 
 def frame(axis, time, words, label):
     parts = []
-    for tick in time.ticks:
+    for tick in time.ticks():
         y = time.at(tick)
         parts.append(line(axis.left, y, axis.right, y, 0.7 if y == BOTTOM else 0.25))
         parts.append(text(axis.left - 8, y + 4, tick, "end"))
