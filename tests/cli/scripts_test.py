@@ -243,7 +243,7 @@ class StudyPlot(ScriptTest):
 
 def study_run(number, seconds, error, state="finished", greyed=False, **settings):
     """As in study.json, what a plot needs of it."""
-    return {"id": f"{number:04d}", "state": state, "greyed": greyed,
+    return {"id": f"{number:04d}", "state": state, "greyed": ["displacement", "stress"] if greyed else [],
             "settings": {"kernel": "quadratic", "transfer": "apic", **settings},
             "seconds": None if seconds is None else {"median": seconds},
             "error": None if error is None else {name: {"l2": error, "max": error}

@@ -70,14 +70,14 @@ def sample_run(number, kernel, transfer, cell_size, cfl, noise):
         "error": {name: {"l2": size * error, "max": 3.1 * size * error * noise()**4}
                   for name, size in QUANTITIES.items()},
         "drift": {"energy": 1e-3 * cfl * noise(), "momentum": 3e-16, "angular": 2e-9 * noise()},
-        "greyed": error < 10 * UNCERTAINTY,
+        "greyed": list(QUANTITIES) if error < 10 * UNCERTAINTY else [],
     }
 
 
 def stopped(run, state, reason, seconds=None):
     """The run as one that did not end."""
     unknown = ("error", "drift", "passes", "steps", "dt", "work", "peak_bytes", "cache_bytes")
-    return {**run, **dict.fromkeys(unknown), "state": state, "reason": reason, "greyed": False,
+    return {**run, **dict.fromkeys(unknown), "state": state, "reason": reason, "greyed": [],
             "seconds": None if seconds is None else
             {"median": seconds, "min": seconds, "q1": None, "q3": None, "cpu": None, "projected": 0.4}}
 
@@ -286,12 +286,12 @@ class Page(FirnTest):
     def test_the_fitted_order_is_the_slope_of_the_errors(self):
         runs = [sample_run(k, "quadratic", "flip", 0.1 / 2**k, 0.4, lambda: 1) for k in (0, 1, 2)]
         for run in runs:
-            run["greyed"] = False
+            run["greyed"] = []
             for norms in run["error"].values():
                 norms["l2"] = 3 * run["settings"]["cell_size"] ** 1.5
         self.open(sample_study(runs))
         self.assertEqual(self.column("orders", "order"), ["1.50"])
-        runs[2]["greyed"] = True
+        runs[2]["greyed"] = ["displacement"]
         runs[2]["error"]["displacement"]["l2"] = 0.02
         self.open(sample_study(runs))
         self.assertEqual(self.column("orders", "order"), ["1.50"])

@@ -42,7 +42,7 @@ class Drawing:
         self.study, self.quantity, self.points = study, quantity, points
         self.failed = [run for run in study["runs"] if run["state"] == "failed"]
         runs = [point.run for point in points]
-        coloured = [run for run in runs if not run["greyed"]] + self.failed
+        coloured = [run for run in runs if not self.grey(run)] + self.failed
         self.colours = looks([setting(run, "kernel") for run in coloured], KERNELS, COLOURS)
         self.shapes = looks([setting(run, "transfer") for run in runs], TRANSFERS, SHAPES)
         self.sizes = sorted({run["settings"]["cell_size"] for run in runs if run["settings"].get("cell_size")})
@@ -50,6 +50,10 @@ class Drawing:
         self.x = svg.LogAxis(*svg.around(times, 0.05), LEFT, RIGHT)
         errors = [point.error for point in points]
         self.y = svg.LogAxis(*svg.around(errors, 0.05), BOTTOM, TOP + (FAILED_STRIP if self.failed else 0))
+
+    def grey(self, run):
+        """The truth itself is not known much better."""
+        return self.quantity in run["greyed"]
 
     def document(self):
         title = self.study["title"] or os.path.basename(self.study["study"])
@@ -98,14 +102,14 @@ class Drawing:
         return 3.5 + 4 * math.log(size / finest) / math.log(coarsest / finest)
 
     def colour(self, run):
-        return GREY if run["greyed"] else self.colours[setting(run, "kernel")]
+        return GREY if self.grey(run) else self.colours[setting(run, "kernel")]
 
     def marks(self):
         ids = self.study["front"][self.quantity]
         by_id = {point.run["id"]: point for point in self.points}
         front = [by_id[name] for name in ids if name in by_id]
         # Grey below colours, and small marks over large ones, so that each can be seen.
-        order = sorted(self.points, key=lambda point: (not point.run["greyed"], -self.radius(point.run)))
+        order = sorted(self.points, key=lambda point: (not self.grey(point.run), -self.radius(point.run)))
         return ['<g class="front">', svg.polyline([self.place(point) for point in front], INK, 1.5), "</g>",
                 '<g class="runs">', *[self.mark(point, point in front) for point in order], "</g>",
                 f'<g class="labels" font-size="{study_labels.FONT_SIZE}">', *self.labels(front), "</g>"]
@@ -165,7 +169,7 @@ class Drawing:
         yield "transfer", [(name, shape(look, (0, 0), 5.5, SOFT)) for name, look in self.shapes.items()]
         yield "cells", [(metres(size), shape(DISK, (0, 0), self.radius_of(size), SOFT)) for size in reversed(sizes)]
         yield "", [("Pareto front", svg.polyline([(-8, 4), (8, -4)], INK, 1.5))]
-        if any(point.run["greyed"] for point in self.points):
+        if any(self.grey(point.run) for point in self.points):
             yield "", [("near the truth's", shape(DISK, (0, 0), 5.5, GREY)), ("own uncertainty", "")]
 
 

@@ -40,12 +40,14 @@ Json truth_json(const StudyDescription& study, const Truth& truth) {
           {"uncertainty", uncertainty}};
 }
 
-/// An error that is not well above what the truth itself is off by.
-bool greyed(const Json& run, const Json& uncertainty) {
-  return std::any_of(uncertainty.items().begin(), uncertainty.items().end(), [&](const auto& item) {
+/// The quantities whose error is not well above what the truth itself is off by.
+Json greyed(const Json& run, const Json& uncertainty) {
+  Json out = Json::array();
+  for (const auto& item : uncertainty.items()) {
     const auto error = error_of(run, item.key());
-    return error && *error < 10 * item.value().template get<double>();
-  });
+    if (error && *error < 10 * item.value().get<double>()) out.push_back(item.key());
+  }
+  return out;
 }
 
 /// Those whose value is not the same in all runs.
@@ -92,7 +94,9 @@ std::vector<std::pair<std::string, Json>> columns(const Json& study, const Json&
                        error.is_object() ? error.value(norm, Json()) : Json());
   }
   all("drift_", {{"energy", 0}, {"momentum", 0}, {"angular", 0}}, run["drift"]);
-  out.emplace_back("greyed", run["greyed"]);
+  std::string grey;
+  for (const auto& quantity : run["greyed"]) grey += (grey.empty() ? "" : " ") + quantity.get<std::string>();
+  out.emplace_back("greyed", grey);
   out.emplace_back("reason", run["reason"]);
   return out;
 }
@@ -180,9 +184,10 @@ std::string study_summary(const Json& study, std::string_view quantity) {
   std::string out = fmt::format("error of {}, seconds, settings that no other run beats in both\n", name);
   for (const Json& id : study["front"][name]) {
     const Json run = run_of(id);
-    out +=
-        fmt::format("{:>9}  {:>8}  {}{}\n", percent(*error_of(run, name)), seconds_text(seconds_of(run)),
-                    settings_text(study, run), run["greyed"] ? "  (near the truth's own uncertainty)" : "");
+    const auto& grey = run["greyed"];
+    const bool is_grey = std::find(grey.begin(), grey.end(), name) != grey.end();
+    out += fmt::format("{:>9}  {:>8}  {}{}\n", percent(*error_of(run, name)), seconds_text(seconds_of(run)),
+                       settings_text(study, run), is_grey ? "  (near the truth's own uncertainty)" : "");
   }
   out += "seconds to reach\n";
   for (const Json& reach : study["reach"][name])

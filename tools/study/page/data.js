@@ -14,6 +14,8 @@ const STEP_SETTINGS = ["cfl", "max_dt"];
 const NONE = "–";
 
 const errorOf = (run, norm = view.norm) => run.error?.[view.quantity]?.[norm] ?? null;
+// The truth itself is not known much better than such a run.
+const isGrey = run => run.greyed.includes(view.quantity);
 const secondsOf = run => run.seconds?.median ?? null;
 const kernelOf = run => String(run.settings.kernel ?? NONE);
 const transferOf = run => String(run.settings.transfer ?? NONE);

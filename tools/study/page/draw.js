@@ -38,7 +38,7 @@ const markRadius = run =>
 
 /** A dataset of runs: a mark each, its radius times `scale`, and a line through them if `line` says so. */
 function dataset(role, runs, point, scale = 1, line = {showLine: false}) {
-  const colour = run => run.greyed ? GREY : colours.get(kernelOf(run));
+  const colour = run => isGrey(run) ? GREY : colours.get(kernelOf(run));
   // Star and cross are all border.
   const thin = run => ["star", "cross"].includes(shapes.get(transferOf(run)));
   return {

@@ -41,7 +41,7 @@ function showTooltip({chart, tooltip}) {
   box.replaceChildren(make("strong", `Run ${runs[0].id}${state}`), list);
   const others = runs.slice(1).map(run => run.id);
   if (others.length) box.append(make("p", `At the same place: ${others.join(", ")}`));
-  if (runs[0].greyed) box.append(make("p", "Grey: under 10 × the truth's uncertainty"));
+  if (isGrey(runs[0])) box.append(make("p", "Grey: under 10 × the truth's uncertainty"));
 
   const canvas = chart.canvas.getBoundingClientRect();
   const [x, y] = [canvas.left + tooltip.caretX, canvas.top + tooltip.caretY];

@@ -107,7 +107,7 @@ function allColumns() {
 
 function orderRows() {
   return linesOverSize().map(runs => {
-    const used = runs.filter(run => !run.greyed);
+    const used = runs.filter(run => !isGrey(run));
     return {run: used[0] ?? runs[0], used, order: used.length ? fittedOrder(used) : null};
   }).filter(row => row.order !== null);
 }

@@ -83,7 +83,7 @@ function fillSigns() {
   if (study.runs.some(run => run.state === "failed")) add(markPicture("crossRot", ink, 5), "failed");
   const band = make("i", "", "band");
   band.append(markPicture("circle", GREY, 5.5));
-  if (study.runs.some(run => run.greyed)) add(band, "under 10 × the truth's uncertainty");
+  if (study.runs.some(run => run.greyed.length > 0)) add(band, "under 10 × the truth's uncertainty");
 }
 
 function fillControls(show) {
