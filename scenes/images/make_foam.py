@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Makes the picture of a foam for scenes/foam.toml beside this file: bright walls between dark pores. Plain Python, same
-bytes on every run.
+"""Makes the picture of a foam beside this file, for scenes/foam.toml: bright walls between dark pores. Plain Python,
+same bytes on every run.
 
 The pores are the Voronoi cells of points on a staggered lattice, each moved a little at random, so that no wall has a
 twin and they do not all buckle at once. The foam ends above and below in a skin, which lies flat against the plates.

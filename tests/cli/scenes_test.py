@@ -189,7 +189,7 @@ class Vibrations(SceneTest):
 
     def test_a_bar_loses_energy_with_usl(self):
         table = self.run_scene("vibrating_bar", *changed(stress_order="usl"))
-        # Half a unit of the figure's last digit, and twice that because a step is halved here and there to meet a frame.
+        # Half a unit of the figure's last digit, and twice that because some steps are halved to meet a frame.
         self.assertAlmostEqual(table[-1]["total"] / table[0]["total"], 0.9966, delta=1.5e-4)
 
 
@@ -398,7 +398,8 @@ velocity = ["1e-3 * cos(pi * x)", 0, 0]
     def largest_energy(self, cfl):
         table = self.run_text(self.BAR.format(cfl=cfl))
         for row in table[1:]:
-            self.assertLessEqual(row["dt_max"], cfl * 0.05 / math.sqrt(10) * (1 + 1e-12))
+            # Chosen one step ahead, a step may turn out 5 % too long.
+            self.assertLessEqual(row["dt_max"], 1.05 * cfl * 0.05 / math.sqrt(10))
         return max(row["total"] for row in table) / table[0]["total"]
 
     def test_a_bar_is_calm_below_its_limit_and_blows_up_above(self):
