@@ -1,17 +1,18 @@
 #!/usr/bin/python3
-"""tools/scripts/scaling, prices, without-effects, study_plot: the shape of what they print. How fast anything is, no
-test asks."""
+"""tools/scripts/*: the shape of what they print and draw. How fast anything is, no test asks."""
 
 import importlib.machinery
 import importlib.util
 import json
 import math
 import os
+import struct
 import subprocess
 import sys
 import xml.etree.ElementTree
+import zlib
 
-from firn_cli import SOURCE, FirnTest, main, programs
+from firn_cli import BLOCK, SOURCE, FirnTest, diagnostics, frame_name, main, programs
 
 SCRIPTS = os.path.join(SOURCE, "tools", "scripts")
 SVG = "{http://www.w3.org/2000/svg}"
@@ -134,6 +135,78 @@ class WithoutEffects(ScriptTest):
             self.assertNotIn(effect, module.cut(text))
         with self.assertRaises(SystemExit):
             module.cut(text.replace("clock.lap(1 + e)", "clock.lap(e)"))
+
+
+class Plots(ScriptTest):
+    def plot(self, name, *arguments, code=0):
+        done = subprocess.run([os.path.join(SCRIPTS, name), *arguments], stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, text=True, check=False, cwd=self.folder)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done
+
+    def test_energies_of_runs_stand_side_by_side(self):
+        self.firn("run", self.write("scene.toml", BLOCK), "--out", self.path("run"))
+        done = self.plot("energy_plot", "one=run", "two <2>=run")
+        drawing = xml.etree.ElementTree.fromstring(done.stdout)
+        words = ["".join(text.itertext()) for text in drawing.iter("{http://www.w3.org/2000/svg}text")]
+        for expected in ("energy (J)", "time (s)", "kinetic", "elastic", "total", "one", "two <2>", "0.2"):
+            self.assertIn(expected, words)
+        curves = [line.get("points").split() for line in drawing.iter("{http://www.w3.org/2000/svg}polyline")]
+        frames = len(diagnostics(self.path("run"))[1])
+        self.assertEqual([len(curve) for curve in curves], [frames] * 6)
+        # A block that drifts: what moves is all the energy, and the first curve lies on the third.
+        self.assertEqual(curves[0], curves[2])
+        heights = [float(point.split(",")[1]) for point in curves[0] + curves[1]]
+        self.assertLess(max(heights[:frames]), min(heights[frames:]))
+
+    def test_stress_is_what_energy_grows_by_over_strain(self):
+        module = load("stress_strain")
+        setup = module.Setup({
+            "simulation": {"dimension": 2},
+            "bodies": [{"shape": {"type": "image", "size": [0.2, 0.5, 0]}}],
+            "colliders": [{}, {"keyframes": [{"time": 1, "position": [0, 3, 0]}, {"time": 3, "position": [0, 2.75, 0]},
+                                             {"time": 4, "position": [0, 2.5, 0]}]}]})
+        for time, strain in ((0, 0), (1, 0), (2, 0.25), (3, 0.5), (3.5, 0.75), (5, 1)):
+            self.assertAlmostEqual(setup.strain(time), strain)
+        # A spring of 7 Pa: 7 e^2 / 2 joules a square metre, of which there is a tenth. A quarter is in motion.
+        energies = [(t / 50, 0.1 * 7 / 2 * setup.strain(t / 50)**2) for t in range(201)]
+        rows = [{"time": t, "elastic": 0.75 * energy, "kinetic": 0.25 * energy} for t, energy in energies]
+        curve = module.curve(rows, setup)
+        self.assertGreater(len(curve), 100)
+        for strain, stress in curve:
+            # Differences of a parabola are exact in the middle.
+            self.assertAlmostEqual(stress, 7 * strain)
+
+    def test_dots_are_drawn_where_the_particles_are(self):
+        flat = (BLOCK.replace("cell_size", "dimension = 2\ncell_size").replace("0.4, 0.4, 0.4", "0.4, 0.4, 0")
+                + 'sampling = "lattice"\nparticles_per_cell = 4\n')
+        self.firn("run", self.write("scene.toml", flat), "--out", self.path("run"))
+        first, last = (f"run/{frame_name(number)}" for number in (1, len(diagnostics(self.path("run"))[1])))
+        self.plot("dots", first, last, "--out", "dots.png", "--width", "240")
+        with open(self.path("dots.png"), "rb") as file:
+            picture = file.read()
+        # 0.4 m of body that drifts 0.2 m, and a cell of 0.1 m around all: 240 pixels are 0.65 to 0.66 m wide, for its
+        # outermost particles stand 25 mm inside.
+        width, height = struct.unpack(">II", picture[16:24])
+        self.assertEqual(width, 240 + 12 + 240)
+        self.assertAlmostEqual(height, 240 * 0.45 / 0.65, delta=2)
+        at = picture.index(b"IDAT")
+        size, = struct.unpack(">I", picture[at - 4:at])
+        rows = zlib.decompress(picture[at + 4:at + 4 + size])
+        rows = [rows[k * (width + 1) + 1:(k + 1) * (width + 1)] for k in range(height)]
+        # Eight by eight dots in each panel; the left one's body is left in it, the right one's right.
+        dark = [max(column) > 0 for column in zip(*rows)]
+        for panel, dots in ((dark[:240], range(0, 168)), (dark[252:], range(72, 240))):
+            self.assertEqual(sum(a < b for a, b in zip(panel, panel[1:])), 8)
+            self.assertTrue(all(k in dots for k, drawn in enumerate(panel) if drawn))
+
+    def test_mistakes_are_told(self):
+        self.assertIn("does not exist", self.plot("dots", "nothing.vdb", "--out", "a.png", code=3).stderr)
+        self.assertIn("NAME=FOLDER", self.plot("energy_plot", "run", code=2).stderr)
+        self.assertIn("no diagnostics.csv", self.plot("energy_plot", "a=nothing", code=3).stderr)
+        self.assertIn("no run.json", self.plot("stress_strain", "nothing", code=3).stderr)
+        self.firn("run", self.write("scene.toml", BLOCK), "--out", self.path("run"))
+        self.assertIn("one body from a picture", self.plot("stress_strain", "run", code=3).stderr)
 
 
 class StudyPlot(ScriptTest):
