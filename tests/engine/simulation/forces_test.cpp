@@ -150,6 +150,24 @@ TEST_CASE("a load on no particle is a mistake") {
   CHECK_THROWS_WITH(firn::seed_bodies(plan, warnings), Catch::Contains("loads.push.region: no particle"));
 }
 
+TEST_CASE("a particle's volume is that at rest times det F") {
+  Simulated s(kBlock, {"output.attributes=[\"F_E\", \"volume\", \"density\"]",
+                       "bodies.block.velocity=[\"y - x\", \"x\", 0]"});
+  steps(s, 100, 1e-3);
+  const std::vector<float> F = s.attribute("F_E"), volume = s.attribute("volume"),
+                           density = s.attribute("density");
+  const MaterialPoints points = s->material_points();
+  double least = 1;
+  for (std::size_t p = 0; p < volume.size(); ++p) {
+    const float* f = &F[9 * p];
+    const double J = double(f[0]) * f[4] - double(f[1]) * f[3], rest = points.mass[p] / 1000;
+    least = std::min(least, J);
+    CHECK(volume[p] == Approx(rest * J).epsilon(1e-6));  // attributes are floats
+    CHECK(density[p] == Approx(1000 / J).epsilon(1e-6));
+  }
+  CHECK(least < 0.99);  // it did deform
+}
+
 TEST_CASE("a velocity given as a formula starts APIC's affine velocity, too") {
   const std::string turning = "bodies.block.velocity=[\"-(y - 0.25)\", \"x - 0.25\", 0]";
   // On a lattice, whose centre is the block's.
