@@ -15,7 +15,7 @@ namespace firn {
 /// The errors that the table of seconds to reach them has.
 inline constexpr std::array<double, 4> kReachedErrors = {0.1, 0.05, 0.01, 0.001};
 
-/// study.json: see tools/study/README.md. `truth`: null when the runs had none to be compared with.
+/// study.json: see tools/study/README.md.
 nlohmann::ordered_json study_json(const StudyDescription& study, const Truth& truth, double time,
                                   const StudyRecords& runs);
 

@@ -35,6 +35,12 @@ std::string json_text(const Json& json) {
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
+/// What made a result: built anew, a program may be another one, and another one's seconds are not its own.
+std::string program() {
+  const auto built = std::filesystem::last_write_time("/proc/self/exe").time_since_epoch().count();
+  return fmt::format("{} {}", kVersion, built);
+}
+
 /// Where the results of single runs are kept, so that a study that was stopped goes on where it was.
 class RunStore {
  public:
@@ -45,7 +51,6 @@ class RunStore {
     if (failed) throw Error(ExitCode::environment, fmt::format("{}: {}", folder_.string(), failed.message()));
   }
 
-  /// `what`: of the run's results; those with errors depend on the truth, too.
   std::filesystem::path file(const StudyRun& run, std::string_view extension) const {
     return folder_ / fmt::format("{:016x}.{}", run.key, extension);
   }
@@ -54,13 +59,14 @@ class RunStore {
   Json find(const StudyRun& run) const {
     std::ifstream in(file(run, "json"));
     const Json record = Json::parse(in, nullptr, false);
-    if (!record.is_object() || record.value("firn", "") != kVersion || record.value("truth", "") != truth_)
+    if (!record.is_object() || record.value("program", "") != program() ||
+        record.value("truth", "") != truth_)
       return nullptr;
     return record["run"];
   }
 
   void keep(const StudyRun& run, const Json& record) const {
-    write_text(file(run, "json"), json_text({{"firn", kVersion}, {"truth", truth_}, {"run", record}}));
+    write_text(file(run, "json"), json_text({{"program", program()}, {"truth", truth_}, {"run", record}}));
   }
 
  private:
