@@ -125,6 +125,32 @@ class TwoCylinders(SceneTest):
         self.assertEqual(len(pieces(exported_points(self.frame(len(table))), 1.5 * 0.05)), 2)
 
 
+class Footprint(SceneTest):
+    def test_the_print_stays_and_the_snow_beside_it_too(self):
+        self.run_scene("footprint")
+        count = len(run_record(self.out)["frames"])
+        down = values("footprint")["colliders"][0]["keyframes"][2]["time"]
+        pressed = cache_rows(self.frame(1 + math.ceil(down * values("footprint")["simulation"]["frame_rate"])))
+        first, last = cache_rows(self.frame(1)), cache_rows(self.frame(count))
+
+        def sole(rows):
+            return [row for row in rows if abs(row["x"]) < 0.08 and abs(row["z"]) < 0.03]
+
+        def beside(rows):
+            return [row for row in rows if abs(row["x"]) > 0.22]
+
+        def top(rows):
+            # But for the topmost twentieth: some get a cell or two into the boot, where the grid holds them.
+            return sorted(row["y"] for row in rows)[int(0.95 * len(rows))]
+
+        cell = values("footprint")["simulation"]["cell_size"]
+        # The boot goes 7 cm down; contact is sharp to a cell.
+        self.assertGreater(top(first) - top(sole(pressed)), 0.07 - 1.5 * cell)
+        self.assertLess(top(sole(last)) - top(sole(pressed)), 0.01, "it springs back")
+        self.assertLess(sum(row["Jp"] for row in sole(last)) / len(sole(last)), 0.8)
+        self.assertLess(abs(top(beside(last)) - top(beside(first))), 0.1 * cell)
+
+
 class SnowOnWedge(SceneTest):
     def test_a_coarse_slab_splits_on_the_edge_and_stays_above_the_ground(self):
         h = 0.06
