@@ -7,6 +7,7 @@ import os
 import shutil
 import subprocess
 import tomllib
+import types
 
 from firn_cli import (SCENES, SOURCE, FirnTest, cache_rows, diagnostics, exported_points, frame_name, main, run_record)
 from pieces import pieces
@@ -149,6 +150,33 @@ class Footprint(SceneTest):
         self.assertLess(top(sole(last)) - top(sole(pressed)), 0.01, "it springs back")
         self.assertLess(sum(row["Jp"] for row in sole(last)) / len(sole(last)), 0.8)
         self.assertLess(abs(top(beside(last)) - top(beside(first))), 0.1 * cell)
+
+
+class RollingSnowball(SceneTest):
+    def test_it_rolls_stays_whole_and_wears_the_layer_as_a_coat(self):
+        self.run_scene("rolling_snowball")
+        radius = values("rolling_snowball")["bodies"][0]["shape"]["radius"]
+        start, end = (self.ball(number) for number in (1, len(run_record(self.out)["frames"])))
+        self.assertAlmostEqual(start.rolls_on, radius, delta=0.01)
+        self.assertEqual(start.coat, 0)
+        self.assertGreater(end.rolls_on, 1.15 * radius, "it grows")
+        self.assertLess(end.rolls_on, 2 * radius, "it turns")
+        self.assertLess(end.size, 1.1 * start.size, "it stays whole")
+        # As many grains as a tenth of its own area.
+        self.assertGreater(end.coat, 0.1 * start.grains)
+        self.assertGreater(end.x - start.x, 10 * radius)
+
+    def ball(self, number):
+        rows = cache_rows(self.frame(number))
+        own = [row for row in rows if row["material"] == 0]
+        x, y, vx, vy = (sum(row[name] for row in own) / len(own) for name in ("x", "y", "vx", "vy"))
+        inertia = sum((row["x"] - x)**2 + (row["y"] - y)**2 for row in own)
+        spin = sum((row["x"] - x) * (row["vy"] - vy) - (row["y"] - y) * (row["vx"] - vx) for row in own) / inertia
+        distances = sorted(math.hypot(row["x"] - x, row["y"] - y) for row in own)
+        coat = [row for row in rows if row["material"] == 1 and row["y"] > 0.08
+                and math.hypot(row["x"] - x, row["y"] - y) < 0.18]
+        return types.SimpleNamespace(x=x, rolls_on=-vx / spin, size=distances[int(0.95 * len(own))], coat=len(coat),
+                                     grains=len(own))
 
 
 class SnowOnWedge(SceneTest):

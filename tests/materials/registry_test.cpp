@@ -1,6 +1,7 @@
 // The models' own descriptions, and what is made from them.
 #include "materials/registry.h"
 
+#include <map>
 #include <set>
 
 #include <catch2/catch.hpp>
@@ -34,6 +35,17 @@ ParameterValues sample_values(const ModelInfo& m) {
   ParameterValues values;
   for (const Parameter& p : m.parameters) values.emplace(p.name, p.required() ? 0.25 : p.default_value);
   return values;
+}
+
+TEST_CASE("the defaults of snow are those of its paper's table") {
+  // Stomakhin et al. 2013, table 1; nothing there bounds the hardening.
+  const std::map<std::string_view, double> table{{"density", 400},        {"youngs_modulus", 1.4e5},
+                                                 {"poissons_ratio", 0.2}, {"xi", 10},
+                                                 {"theta_c", 2.5e-2},     {"theta_s", 7.5e-3}};
+  for (const Parameter& p : find_model("snow_stomakhin_2013")->parameters) {
+    if (p.name == "hardening_cap") continue;
+    CHECK(p.default_value == table.at(p.name));
+  }
 }
 
 }  // namespace
