@@ -17,7 +17,7 @@ from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
 from selenium.webdriver.support.ui import WebDriverWait
 
-from firn_cli import SOURCE, FirnTest, main
+from firn_cli import SCENES, SOURCE, FirnTest, main
 
 PAGE = os.path.join(SOURCE, "tools", "study", "page")
 CHART = "/usr/share/javascript/chart.js/chart.min.js"
@@ -220,6 +220,33 @@ class Page(FirnTest):
 
     def choose(self, key, value):
         self.browser.find_element(By.XPATH, f"//fieldset[@id='{key}']//label[span='{value}']").click()
+
+    def test_the_page_that_firn_writes_holds_its_study_and_draws_it(self):
+        study = self.write("study.toml", f"""
+title = "</script> & <b>bold</b>"
+scene = "{os.path.join(SCENES, 'manufactured_bar.toml')}"
+repeats = 1
+[truth]
+type = "closed_form"
+displacement = ["1e-4 * cos(pi * X) * sin(pi * t)", 0, 0]
+[[sweeps]]
+cell_size = [0.0625, 0.03125]
+kernel = ["linear", "quadratic"]
+transfer = ["apic", "pic"]
+""")
+        self.firn("study", study, "--out", self.path("out"))
+        with open(self.path("out", "study.json"), encoding="utf-8") as text:
+            written = json.load(text)
+        self.browser.get("file://" + self.path("out", "study.html"))
+        self.assertEqual(self.js("return firnStudy.study"), written)
+        self.assertEqual(self.text("h1"), "</script> & <b>bold</b>")
+        marks = sorted(self.marks("seconds", "runs"), key=lambda mark: mark["run"])
+        self.assertEqual([mark["run"] for mark in marks],
+                         [run["id"] for run in written["runs"] if run["state"] == "finished"])
+        self.assertEqual(len(marks), 6)
+        self.move_to("seconds", marks[-1]["at"]).perform()
+        self.await_tooltip(True, "seconds")
+        self.assertIn("quadratic", self.browser.find_element(By.ID, "tooltip").text)
 
     def test_every_finished_run_is_a_mark_in_its_kernels_colour_at_its_seconds_and_error(self):
         self.open(self.study)
