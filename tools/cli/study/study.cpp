@@ -1,14 +1,12 @@
 #include "tools/cli/study/study.h"
 
 #include <chrono>
-#include <fstream>
 #include <iostream>
 
 #include <fmt/format.h>
 
 #include "engine/base/error.h"
 #include "engine/base/nearest_name.h"
-#include "engine/output/checked_file.h"
 #include "engine/output/output_folder.h"
 #include "tools/cli/child_program.h"
 #include "tools/cli/study/child.h"
@@ -16,63 +14,13 @@
 #include "tools/cli/study/parse.h"
 #include "tools/cli/study/reader.h"
 #include "tools/cli/study/report.h"
+#include "tools/cli/study/run_store.h"
 #include "tools/cli/units.h"
-#include "tools/cli/version.h"
 
 namespace firn {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-void write_text(const std::filesystem::path& path, const std::string& text) {
-  CheckedFile file(path, text.size());
-  file.stream() << text;
-  file.commit();
-}
-
-/// Bytes that are no UTF-8, as in a file's name, are replaced.
-std::string json_text(const Json& json) {
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
-}
-
-/// What made a result: built anew, a program may be another one, and another one's seconds are not its own.
-std::string program() {
-  const auto built = std::filesystem::last_write_time("/proc/self/exe").time_since_epoch().count();
-  return fmt::format("{} {}", kVersion, built);
-}
-
-/// Where the results of single runs are kept, so that a study that was stopped goes on where it was.
-class RunStore {
- public:
-  RunStore(const std::filesystem::path& folder, std::string truth)
-      : folder_(folder / "runs"), truth_(std::move(truth)) {
-    std::error_code failed;
-    std::filesystem::create_directories(folder_, failed);
-    if (failed) throw Error(ExitCode::environment, fmt::format("{}: {}", folder_.string(), failed.message()));
-  }
-
-  std::filesystem::path file(const StudyRun& run, std::string_view extension) const {
-    return folder_ / fmt::format("{:016x}.{}", run.key, extension);
-  }
-
-  /// Null when the run was not made, or by another program or for another truth.
-  Json find(const StudyRun& run) const {
-    std::ifstream in(file(run, "json"));
-    const Json record = Json::parse(in, nullptr, false);
-    if (!record.is_object() || record.value("program", "") != program() ||
-        record.value("truth", "") != truth_)
-      return nullptr;
-    return record["run"];
-  }
-
-  void keep(const StudyRun& run, const Json& record) const {
-    write_text(file(run, "json"), json_text({{"program", program()}, {"truth", truth_}, {"run", record}}));
-  }
-
- private:
-  std::filesystem::path folder_;
-  std::string truth_;
-};
 
 ProgramAnswer run_child(const StudyDescription& study, const StudyRun& run,
                         const std::filesystem::path& points) {
