@@ -13,4 +13,4 @@ firn_page_\name\()_end:
         part script, FIRN_PAGE_SCRIPT
         part chart, FIRN_PAGE_CHART
 
-        .section .note.GNU-stack, "", @progbits
+        .section .note.GNU-stack, "", %progbits
