@@ -71,14 +71,6 @@ Formula& Formula::operator=(const Formula& other) {
 }
 Formula::~Formula() = default;
 
-const std::string& Formula::text() const {
-  return parser_->text;
-}
-
-bool Formula::uses(std::string_view name) const {
-  return parser_->parser.GetUsedVar().contains(std::string(name));
-}
-
 double Formula::operator()(std::span<const double> values) const {
   std::copy(values.begin(), values.end(), parser_->values.begin());
   return parser_->parser.Eval();

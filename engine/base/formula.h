@@ -27,10 +27,6 @@ class Formula {
   Formula& operator=(const Formula& other);
   ~Formula();
 
-  const std::string& text() const;
-  /// Whether the value depends on this name.
-  bool uses(std::string_view name) const;
-
   /// One value for each name, in their order. Not finite where the formula is not defined.
   double operator()(std::span<const double> values) const;
 

@@ -29,11 +29,6 @@ class VectorFormula {
   }
 
   bool constant() const { return !formula_[0] && !formula_[1] && !formula_[2]; }
-  bool uses(std::string_view name) const {
-    for (const auto& f : formula_)
-      if (f && f->uses(name)) return true;
-    return false;
-  }
 
   /// One value for each name, in their order.
   std::array<double, 3> operator()(std::span<const double> values) const {

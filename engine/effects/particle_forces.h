@@ -40,66 +40,70 @@ inline std::vector<bool> inside(const Shape& region, std::span<const Vec3> point
   return out;
 }
 
-/// The effects ready for a simulation's particles.
+/// The effects ready for a simulation's particles. Each is a formula times a weight of the particle: for an
+/// acceleration its mass, for a load its share.
 class ParticleForces {
  public:
-  /// `start`, `mass`: of every particle, by its id.
-  ParticleForces(const ForceEffects& effects, std::vector<Vec3> start, std::span<const double> mass)
+  /// `start` (m), `mass` (kg): of every particle, by its id.
+  ParticleForces(const ForceEffects& effects, std::vector<Vec3> start, const std::vector<double>& mass)
       : start_(std::move(start)) {
-    if (effects.acceleration) acceleration_.emplace(*effects.acceleration);
-    for (const Load& load : effects.loads) {
-      const std::vector<bool> in = inside(*load.region, start_);
-      double total = 0;
-      for (std::size_t p = 0; p < start_.size(); ++p) total += in[p] ? mass[p] : 0;
-      Share& share = loads_.emplace_back(Share{Formulas(load.force), std::vector<double>(start_.size())});
-      for (std::size_t p = 0; p < start_.size(); ++p) share.part[p] = in[p] ? mass[p] / total : 0;
-    }
+    if (effects.acceleration) terms_.push_back({Formulas(*effects.acceleration), mass});
+    for (const Load& load : effects.loads)
+      terms_.push_back({Formulas(load.force), shares(*load.region, mass)});
   }
 
-  /// Fills the column `force` with what acts at `time`.
+  /// Fills the column `force` with what acts at `time`, s.
   template <class Real, int D>
   void update(ParticleTable<Real, D>& particles, double time) {
-    const auto position = particles.template view<Column::position>();
-    const auto mass = particles.template view<Column::mass>();
     const auto force = particles.template view<Column::force>();
-    const auto id = particles.id();
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, particles.size(), kGrain), [&](const auto& range) {
-      std::array<double, 7> at{};
-      at[6] = time;
-      for (std::size_t p = range.begin(); p < range.end(); ++p) {
-        const auto x = position.load(p);
-        for (int d = 0; d < D; ++d) at[static_cast<std::size_t>(d)] = static_cast<double>(x[d]);
-        for (int d = 0; d < 3; ++d) at[static_cast<std::size_t>(3 + d)] = start_[id[p]][d];
-        std::array<double, 3> f{};
-        if (acceleration_) add(static_cast<double>(mass.load(p)), acceleration_->local()(at), f);
-        for (Share& load : loads_)
-          if (load.part[id[p]] > 0) add(load.part[id[p]], load.force.local()(at), f);
-        Vector<Real, D> out;
-        for (int d = 0; d < D; ++d) out[d] = static_cast<Real>(f[static_cast<std::size_t>(d)]);
-        force.store(p, out);
-      }
+      for (std::size_t p = range.begin(); p < range.end(); ++p) force.store(p, Vector<Real, D>::zero());
+      for (Term& term : terms_) add(term.formula.local(), term.weight, time, range, particles);
     });
   }
 
-  std::size_t bytes() const {
-    return start_.size() * sizeof(Vec3) + loads_.size() * start_.size() * sizeof(double);
-  }
+  std::size_t bytes() const { return start_.size() * (sizeof(Vec3) + terms_.size() * sizeof(double)); }
 
  private:
   static constexpr std::size_t kGrain = 1024;
   using Formulas = tbb::enumerable_thread_specific<VectorFormula>;
-  struct Share {
-    Formulas force;
-    std::vector<double> part;  // of the whole force, by id
+  struct Term {
+    Formulas formula;
+    std::vector<double> weight;  // by id
   };
 
-  static void add(double factor, const std::array<double, 3>& v, std::array<double, 3>& sum) {
-    for (std::size_t d = 0; d < 3; ++d) sum[d] += factor * v[d];
+  std::vector<double> shares(const Shape& region, const std::vector<double>& mass) const {
+    const std::vector<bool> in = inside(region, start_);
+    double total = 0;
+    for (std::size_t p = 0; p < mass.size(); ++p) total += in[p] ? mass[p] : 0;
+    std::vector<double> out(mass.size());
+    for (std::size_t p = 0; p < mass.size(); ++p) out[p] = in[p] ? mass[p] / total : 0;
+    return out;
+  }
+
+  template <class Real, int D>
+  void add(const VectorFormula& formula, const std::vector<double>& weight, double time,
+           const tbb::blocked_range<std::size_t>& range, ParticleTable<Real, D>& particles) const {
+    const auto position = particles.template view<Column::position>();
+    const auto force = particles.template view<Column::force>();
+    const auto id = particles.id();
+    std::array<double, 7> at{};
+    at[6] = time;
+    for (std::size_t p = range.begin(); p < range.end(); ++p) {
+      const double w = weight[id[p]];
+      if (w == 0) continue;  // outside the region
+      const Vector<Real, D> x = position.load(p);
+      for (int d = 0; d < D; ++d) at[static_cast<std::size_t>(d)] = static_cast<double>(x[d]);
+      for (int d = 0; d < 3; ++d) at[static_cast<std::size_t>(3 + d)] = start_[id[p]][d];
+      const std::array<double, 3> value = formula(at);
+      Vector<Real, D> f = force.load(p);
+      for (int d = 0; d < D; ++d) f[d] += static_cast<Real>(w * value[static_cast<std::size_t>(d)]);
+      force.store(p, f);
+    }
   }
 
   std::vector<Vec3> start_;  // m, by id
-  std::optional<Formulas> acceleration_;
-  std::vector<Share> loads_;
+  std::vector<Term> terms_;
 };
 
 }  // namespace firn

@@ -182,6 +182,8 @@ struct SceneDescription {
   std::vector<ColliderDescription> colliders;
   std::optional<DomainDescription> domain;
   OutputDescription output;
+
+  bool names_forces() const { return body_force || !loads.empty(); }
 };
 
 }  // namespace firn

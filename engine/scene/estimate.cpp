@@ -83,10 +83,9 @@ double fastest(const BodyDescription& body, const Shape* shape, int dimension) {
       shape != nullptr ? along_axes(shape->bounds(), dimension) : Bounds{Vec3::Zero(), Vec3::Zero()};
   const int points = velocity.constant() ? 1 : static_cast<int>(power(kPoints, dimension));
   double speed = 0;
-  for (int k = 0, rest = 0; k < points; ++k) {
+  for (int k = 0; k < points; ++k) {
     Vec3 x = Vec3::Zero();
-    rest = k;
-    for (int d = 0; d < dimension; ++d, rest /= kPoints)
+    for (int d = 0, rest = k; d < dimension; ++d, rest /= kPoints)
       x[d] = b.min[d] + (b.max[d] - b.min[d]) * (rest % kPoints) / (kPoints - 1);
     const auto v = velocity({x.data(), 3});
     speed = std::max(speed, Vec3(v[0], v[1], v[2]).norm());

@@ -73,8 +73,6 @@ SceneDescription live_scene(const ModelInfo& model) {
   d.simulation.cell_size = 0.05;
   d.simulation.duration = 0.5;
   d.gravity = Vec3(0, -9.81, 0);
-  d.body_force.emplace();
-  d.body_force->acceleration[0].formula = "min(2 * t, 1) * cos(pi * y)";
   d.materials = {material("snow", model)};
   BodyDescription ball = body("ball", "snow", shape(SphereDescription{{0, 0.4, 0}, 0.2}));
   ball.velocity[0].number = 4;
@@ -82,11 +80,6 @@ SceneDescription live_scene(const ModelInfo& model) {
   ball.angular_velocity = {0, 0, -90};
   d.bodies = {ball, body("hut", "snow", hut())};
   d.colliders = colliders();
-  LoadDescription push;
-  push.name = "push";
-  push.region = shape(BoxDescription{{1.2, 0, -0.3}, {1.3, 0.4, 0.3}});
-  push.force[0].number = -50;
-  d.loads = {push};
   d.domain = DomainDescription{{-2, -0.2, -1}, {2, 2, 1}};
   for (const Attribute& attribute : kAttributes)
     d.output.attributes.push_back({std::string(attribute.name), {}});
@@ -134,6 +127,19 @@ std::string bodies_from_files(TomlWriter::Explained& explained) {
   return out;
 }
 
+// On the plain path only, so not in a scene that someone may start from.
+std::string forces(TomlWriter::Explained& explained) {
+  BodyForceDescription wind;
+  wind.acceleration[0].formula = "min(2 * t, 1) * cos(pi * y)";
+  LoadDescription push;
+  push.name = "push";
+  push.region = shape(BoxDescription{{1.2, 0, -0.3}, {1.3, 0.4, 0.3}});
+  push.force[0].number = -50;
+  return "\n# Forces that vary, and forces on parts of bodies.\n" +
+         disabled(TomlWriter::table(explained, "body_force", "[body_force]", wind)) +
+         disabled("\n" + TomlWriter::table(explained, "loads", "[[loads]]", push));
+}
+
 }  // namespace
 
 std::string example_scene() {
@@ -148,6 +154,7 @@ std::string example_scene() {
   out += TomlWriter::table(explained, "", "", live_scene(model));
   out += other_materials(explained, model);
   out += bodies_from_files(explained);
+  out += forces(explained);
   return out;
 }
 

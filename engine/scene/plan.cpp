@@ -35,7 +35,7 @@ PathPlan plan_path(const SceneDescription& scene) {
   if (s.kernel != KernelName::quadratic) return {{}, "the vectorised path has the quadratic kernel only"};
   if (s.stress_order != StressOrder::usl) return {{}, "the vectorised path has stress_order \"usl\" only"};
   if (s.transfer == Transfer::flip) return {{}, "FLIP needs every particle's velocity in every step"};
-  if (scene.body_force || !scene.loads.empty()) return {{}, "the vectorised path has no forces on particles"};
+  if (scene.names_forces()) return {{}, "the vectorised path has no forces on particles"};
   if (mass_cutoff(s) > 0) return {{}, "the vectorised path ignores no node"};
   const std::optional<Isa> isa = best_isa();
   if (!isa) return {{}, "the processor has no SSE4, or FIRN_ISA = none"};
@@ -96,7 +96,7 @@ void plan_batches(const SceneDescription& scene, Plan& plan) {
     const bool stress_asked = std::any_of(scene.output.attributes.begin(), scene.output.attributes.end(),
                                           [](const Name& a) { return a.text == "stress"; });
     if (plan.path.isa && !stress_asked) columns = columns.without(Column::stress);
-    if (scene.body_force || !scene.loads.empty()) columns = columns | ColumnSet{Column::force};
+    if (scene.names_forces()) columns = columns | ColumnSet{Column::force};
     plan.batches.push_back({material.name, std::string(model.name), density, law, columns});
   }
 }

@@ -147,8 +147,11 @@ class ParticleSimulation : public Simulation {
   }
   /// Mass of the lightest particle, kg.
   double lightest() const {
-    const std::vector<double> masses = masses_by_id();
-    return *std::min_element(masses.begin(), masses.end());
+    Real m = std::numeric_limits<Real>::max();
+    for (const auto& batch : batches_)
+      for (std::size_t p = 0; p < batch.particles.size(); ++p)
+        m = std::min(m, batch.particles.template view<Column::mass>().load(p));
+    return static_cast<double>(m);
   }
   std::size_t table_bytes() const {
     std::size_t sum = 0;

@@ -9,7 +9,8 @@
 
 namespace firn {
 
-/// The velocity that a body's description gives its particles: `velocity` and the spin about the centre.
+/// The velocity (m/s, places in m) that a body's description gives its particles: `velocity` and the spin
+/// about the centre.
 class StartVelocity {
  public:
   StartVelocity(const BodyDescription& body, const Seeds& seeds, double cell_size)

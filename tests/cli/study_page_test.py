@@ -1,226 +1,23 @@
 #!/usr/bin/python3
 """tools/study/page: the page of a study in a browser, with data made up here. Studies have other tests."""
 
-import glob
-import itertools
 import json
 import math
 import os
-import random
-import re
-import shutil
-import tempfile
 
-from selenium import webdriver
-from selenium.webdriver.chrome.service import Service
-from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.by import By
-from selenium.webdriver.support.ui import WebDriverWait
 
-from firn_cli import SCENES, SOURCE, FirnTest, main
+from firn_cli import SCENES, main
+from page_browser import CANVASES, PIXELS, PageTest
+from study_samples import QUANTITIES, pareto, sample_run, sample_runs, sample_study
 
-PAGE = os.path.join(SOURCE, "tools", "study", "page")
-CHART = "/usr/share/javascript/chart.js/chart.min.js"
-CANVASES = {"seconds": "error-seconds", "dt": "error-dt", "cell_size": "error-size"}
-QUANTITIES = {"displacement": 1.0, "velocity": 2.1, "stress": 5.3}  # with the size of their errors
-UNCERTAINTY = 1.6e-4  # of the truth, of an error of size 1
 COLOURS = {"gimp": (0, 158, 115), "quadratic": (0, 114, 178), "cubic": (213, 94, 0)}
 GREY = (154, 163, 171)
 HOSTILE = ("""</script><script>document.title = "run"</script><img src=x onerror="document.title = 'run'"> """
            "<!-- <script> 'a'")
 
 
-def read(name):
-    with open(name, encoding="utf-8") as text:
-        return text.read()
-
-
-def assembled(study):
-    """The page as firn writes it: every marker once, so that data which spells a marker stays data."""
-    parts = {
-        "STYLE": read(os.path.join(PAGE, "page.css")),
-        "CHART": read(CHART),
-        "DATA": json.dumps(study).replace("<", "\\u003c"),
-        "SCRIPT": "".join(read(name) for name in sorted(glob.glob(os.path.join(PAGE, "*.js")))),
-    }
-    page = read(os.path.join(PAGE, "page.html"))
-    return re.sub("@(STYLE|CHART|DATA|SCRIPT)@", lambda match: parts[match[1]], page)
-
-
-def sample_run(number, kernel, transfer, cell_size, cfl, noise):
-    """Errors fall with the second order until the time step's share is left; seconds rise as the work."""
-    steps = round(60 / (cell_size * cfl))
-    particles = round(4 * 0.39 / cell_size**2)
-    seconds = 2.5e-7 * steps * particles * {"gimp": 0.8, "quadratic": 1, "cubic": 1.9}[kernel] * noise()
-    error = ({"gimp": 4, "quadratic": 2.4, "cubic": 1.5}[kernel] * cell_size**2 + 4e-3 * cfl * cell_size
-             + (0.02 * cell_size if transfer == "apic" else 0)) * noise()
-    return {
-        "id": f"{number:04d}",
-        "settings": {"cell_size": cell_size, "kernel": kernel, "transfer": transfer, "stress_order": "usl",
-                     "cfl": cfl, "materials.rubber.youngs_modulus": 1000},
-        "arguments": f"--set simulation.cell_size={cell_size} --set simulation.kernel={kernel} "
-                     f"--set simulation.transfer={transfer} --set simulation.cfl={cfl}",
-        "state": "finished", "reason": "", "particles": particles, "steps": steps, "dt": 3 / steps,
-        "seconds": {"median": seconds, "min": 0.97 * seconds, "q1": 0.98 * seconds, "q3": 1.04 * seconds,
-                    "cpu": seconds, "projected": seconds * noise()},
-        "passes": {"sort": 0.05 * seconds, "p2g": 0.4 * seconds, "grid": 0.1 * seconds, "g2p": 0.35 * seconds,
-                   "material": 0.1 * seconds},
-        "work": 9.0 * steps * particles,
-        "peak_bytes": 20_000_000 + 400 * particles, "cache_bytes": 90 * particles,
-        "error": {name: {"l2": size * error, "max": 3.1 * size * error * noise()**4}
-                  for name, size in QUANTITIES.items()},
-        "drift": {"energy": 1e-3 * cfl * noise(), "momentum": 3e-16, "angular": 2e-9 * noise()},
-        "greyed": list(QUANTITIES) if error < 10 * UNCERTAINTY else [],
-    }
-
-
-def stopped(run, state, reason, seconds=None):
-    """The run as one that did not end."""
-    unknown = ("error", "drift", "passes", "steps", "dt", "work", "peak_bytes", "cache_bytes")
-    return {**run, **dict.fromkeys(unknown), "state": state, "reason": reason, "greyed": [],
-            "seconds": None if seconds is None else
-            {"median": seconds, "min": seconds, "q1": None, "q3": None, "cpu": None, "projected": 0.4}}
-
-
-def sample_runs():
-    generator = random.Random(7)
-
-    def noise():
-        return math.exp(generator.gauss(0, 0.08))
-
-    methods = [("gimp", "flip"), *itertools.product(("quadratic", "cubic"), ("flip", "apic"))]
-    settings = itertools.product(methods, (0.1, 0.05, 0.025), (0.4, 0.2))
-    runs = [sample_run(k + 1, *method, *others, noise) for k, (method, *others) in enumerate(settings)]
-    runs[8] = stopped(runs[8], "failed", "t = 1.2 s: a velocity is not finite", 0.31)
-    runs[20] = stopped(runs[20], "failed", "out of memory")
-    refused = sample_run(len(runs) + 1, "gimp", "apic", 0.1, 0.4, noise)
-    return [*runs, stopped(refused, "refused", "gimp goes with flip and pic only")]
-
-
-def pareto(runs, quantity, norm="l2"):
-    best, front = math.inf, []
-    for run in sorted(runs, key=lambda run: run["seconds"]["median"]):
-        if run["error"][quantity][norm] < best:
-            best = run["error"][quantity][norm]
-            front.append(run)
-    return front
-
-
-def sample_study(runs, **others):
-    finished = [run for run in runs if run["state"] == "finished"]
-    fronts = {quantity: pareto(finished, quantity) for quantity in QUANTITIES}
-
-    def cheapest(quantity, error):
-        return next((run["id"] for run in fronts[quantity] if run["error"][quantity]["l2"] <= error), None)
-
-    return {
-        "format": "firn study 1", "title": "Two elastic cylinders bounce off each other",
-        "description": "What the cell size, the kernel, the transfer and the time step do to accuracy, and "
-                       "what they cost.\nThe cylinders meet after 0.4 s and part again.",
-        "study": "two_cylinders.toml", "scene": "../scenes/two_cylinders.toml",
-        "made": {"firn": "0.1.0", "compiler": "12.2.0", "machine": "AMD EPYC 7B13", "cores": 2,
-                 "date": "2026-11-23", "repeats": 3},
-        "time": 3.0,
-        "truth": {"type": "finest", "text": "the finest runs of this scene",
-                  "order": {"displacement": 1.97, "velocity": None, "stress": 1.5}, "levels": [0.0125, 0.00625, 0.003125],
-                  "uncertainty": {name: UNCERTAINTY * size for name, size in QUANTITIES.items()}},
-        "axes": ["cell_size", "kernel", "transfer", "cfl"], "quantities": list(QUANTITIES), "runs": runs,
-        "front": {quantity: [run["id"] for run in front] for quantity, front in fronts.items()},
-        "reach": {quantity: [{"error": error, "run": cheapest(quantity, error)}
-                             for error in (0.1, 0.05, 0.01, 0.001)] for quantity in QUANTITIES},
-        **others,
-    }
-
-
-def start_browser():
-    options = webdriver.ChromeOptions()
-    for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage",
-                     "--window-size=1280,900", "--force-device-scale-factor=1"):
-        options.add_argument(argument)
-    options.binary_location = "/usr/bin/chromium"
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    service = Service(executable_path="/usr/bin/chromedriver", log_path=os.devnull)
-    return webdriver.Chrome(service=service, options=options)
-
-
-# What charts show, as plain values. A mark's place is in CSS pixels of its canvas.
-MARKS = """
-const chart = firnStudy.charts[arguments[0]];
-return chart.data.datasets.flatMap((dataset, k) => chart.getDatasetMeta(k).data.map((mark, i) => {
-  const {x, y, run} = dataset.data[i];
-  return {role: dataset.role, run: run.id, value: [x, y], at: [mark.x, mark.y], hidden: mark.skip};
-}));
-"""
-
-# From a copy that is made for reading: the browser warns of repeated reading from one made for drawing.
-PIXELS = """
-const chart = firnStudy.charts[arguments[0]];
-const scale = chart.currentDevicePixelRatio;
-const {width, height} = chart.canvas;
-const copy = new OffscreenCanvas(width, height).getContext("2d", {willReadFrequently: true});
-copy.drawImage(chart.canvas, 0, 0);
-const {data} = copy.getImageData(0, 0, width, height);
-return arguments[1].map(([x, y]) => {
-  const at = 4 * (Math.round(y * scale) * width + Math.round(x * scale));
-  return [...data.slice(at, at + 4)];
-});
-"""
-
-
-class Page(FirnTest):
-    @classmethod
-    def setUpClass(cls):
-        # A profile and a cache of its own, gone afterwards.
-        cls.home = tempfile.mkdtemp(prefix="firn_page_")
-        cls.addClassCleanup(shutil.rmtree, cls.home, ignore_errors=True)
-        cls.browser = start_browser()
-        cls.addClassCleanup(cls.browser.quit)
-        cls.study = sample_study(sample_runs())
-        cls.runs = {run["id"]: run for run in cls.study["runs"]}
-        cls.finished = [run for run in cls.study["runs"] if run["state"] == "finished"]
-
-    def open(self, study):
-        self.browser.get("file://" + self.write("study.html", assembled(study)))
-
-    def tearDown(self):
-        said = [entry for entry in self.browser.get_log("browser") if entry["level"] in ("WARNING", "SEVERE")]
-        self.assertEqual(said, [], "the browser's console")
-
-    def js(self, script, *arguments):
-        return self.browser.execute_script(script, *arguments)
-
-    def marks(self, chart, *roles):
-        return [mark for mark in self.js(MARKS, chart) if mark["role"] in roles]
-
-    def text(self, selector):
-        return self.js("return document.querySelector(arguments[0]).textContent", selector)
-
-    def cells(self, table):
-        """Rows of texts, the head first; the spaces before units are plain ones here."""
-        return self.js("return [...document.querySelectorAll(`#${arguments[0]} tr`)].map(row =>"
-                       "[...row.children].map(cell => cell.textContent.replaceAll('\u00a0', ' ')))", table)
-
-    def column(self, table, head):
-        heads, *rows = self.cells(table)
-        return [row[heads.index(head)] for row in rows]
-
-    def move_to(self, chart, at):
-        """A real mouse over a place of a chart, brought into sight first. Offsets count from the middle."""
-        canvas = self.browser.find_element(By.ID, CANVASES[chart])
-        self.js("arguments[0].scrollIntoView({block: 'center'})", canvas)
-        middle = (canvas.size["width"] // 2, canvas.size["height"] // 2)
-        mouse = ActionChains(self.browser, duration=0)
-        mouse.move_to_element_with_offset(canvas, *(round(at[k] - middle[k]) for k in (0, 1)))
-        return mouse
-
-    def await_tooltip(self, shown, chart):
-        """The chart answers a mouse in the next picture, not at once."""
-        box = self.browser.find_element(By.ID, "tooltip")
-        WebDriverWait(self.browser, 5, 0.02).until(lambda _: box.is_displayed() == shown, f"{chart}: {shown}")
-
-    def choose(self, key, value):
-        self.browser.find_element(By.XPATH, f"//fieldset[@id='{key}']//label[span='{value}']").click()
-
+class Page(PageTest):
     def test_the_page_that_firn_writes_holds_its_study_and_draws_it(self):
         study = self.write("study.toml", f"""
 title = "</script> & <b>bold</b>"

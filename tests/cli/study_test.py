@@ -4,6 +4,7 @@ import csv
 import json
 import math
 import os
+import shlex
 import signal
 import time
 
@@ -187,6 +188,9 @@ class Resume(Study):
         chosen = self.study(study_text(sweeps=QUICK), "--error", "5%").stdout.strip()
         self.assertIn("--set simulation.cell_size=", chosen)
         self.firn("run", BAR, "--out", self.path("pasted"), *chosen.split())
+        # Settings of the study itself with quotes in them survive a shell, too.
+        quoted = self.study(study_text(head=LARGE, amplitude="0.02", sweeps=QUICK), "--error", "50%", out="large").stdout
+        self.firn("run", BAR, "--out", self.path("quoted"), *shlex.split(quoted))
         front = self.results()["front"]["displacement"]
         best = self.study(study_text(sweeps=QUICK), "--budget", "1h").stdout.strip()
         self.assertEqual(best, next(r["arguments"] for r in self.results()["runs"] if r["id"] == front[-1]))

@@ -25,13 +25,6 @@ TEST_CASE("a formula has the value that its text says") {
   CHECK(std::isnan(value("sqrt(x)", -1)));
 }
 
-TEST_CASE("a formula knows which names it depends on") {
-  const Formula formula("2 * x", kNames);
-  CHECK(formula.uses("x"));
-  CHECK_FALSE(formula.uses("t"));
-  CHECK(formula.text() == "2 * x");
-}
-
 TEST_CASE("what is no formula says why") {
   for (const char* wrong :
        {"", "1 +", "sin(", "q + 1", "2 x", "1, 2", "x = 3", "x == ", "a(1)", "\"x\"", "1..2"}) {
@@ -56,7 +49,6 @@ TEST_CASE("copies of a formula do not share their numbers") {
 TEST_CASE("a vector of numbers and formulas") {
   const VectorFormula v({{{1, {}}, {0, "x * t"}, {}}}, kNames);
   CHECK(v(std::array{2.0, 3.0}) == std::array{1.0, 6.0, 0.0});
-  CHECK(v.uses("t"));
   CHECK_FALSE(v.constant());
   CHECK(VectorFormula({{{1, {}}, {2, {}}, {}}}, kNames).constant());
 }

@@ -176,10 +176,11 @@ int run_study_child(const StudyChildOptions& options, std::ostream& out) {
   std::vector<std::string> warnings;
   const std::vector<Seeds> seeds = seed_bodies(plan, warnings);
   Result result;
-  // The run that is looked at also warms the machine up; with one repeat it is the one that counts.
-  std::vector<Repeat> repeats{run_once(plan, seeds, &result)};
-  if (options.repeats > 1) repeats.clear();
-  for (int r = 0; r < options.repeats && options.repeats > 1; ++r)
+  // The run that is looked at only warms the machine up, unless it is the only one.
+  const Repeat first = run_once(plan, seeds, &result);
+  std::vector<Repeat> repeats;
+  if (options.repeats == 1) repeats.push_back(first);
+  while (repeats.size() < static_cast<std::size_t>(options.repeats))
     repeats.push_back(run_once(plan, seeds, nullptr));
 
   std::size_t particles = 0;

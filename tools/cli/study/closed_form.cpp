@@ -30,8 +30,9 @@ Eigen::Matrix3d cauchy(const Material& law, const Eigen::Matrix3d& F) {
               for (int j = 0; j < D; ++j) value(i, j) = F(i, j);
         });
         const auto tau = model.update(point, 0.0).tau;
+        const double J = F.determinant();
         for (int i = 0; i < D; ++i)
-          for (int j = 0; j < D; ++j) out(i, j) = tau(i, j) / F.determinant();
+          for (int j = 0; j < D; ++j) out(i, j) = tau(i, j) / J;
       },
       law);
   return out;

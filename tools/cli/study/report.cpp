@@ -8,6 +8,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include "engine/simulation/simulation.h"
 #include "tools/cli/study/page.h"
 #include "tools/cli/version.h"
 
@@ -84,7 +85,9 @@ std::vector<std::pair<std::string, Json>> columns(const Json& study, const Json&
   for (const char* key : {"state", "particles", "steps", "dt"}) out.emplace_back(key, run[key]);
   all("seconds_", {{"median", 0}, {"min", 0}, {"q1", 0}, {"q3", 0}, {"cpu", 0}, {"projected", 0}},
       run["seconds"]);
-  all("seconds_", {{"sort", 0}, {"p2g", 0}, {"grid", 0}, {"g2p", 0}, {"material", 0}}, run["passes"]);
+  for (const std::string_view pass : PassTimes::names)
+    out.emplace_back(fmt::format("seconds_{}", pass),
+                     run["passes"].is_object() ? run["passes"].value(pass, Json()) : Json());
   for (const char* key : {"work", "peak_bytes", "cache_bytes"}) out.emplace_back(key, run[key]);
   for (const auto& quantity : study["quantities"]) {
     const Json error =
@@ -172,7 +175,8 @@ std::string settings_text(const Json& study, const Json& run) {
 }
 
 std::string study_page(const Json& study) {
-  return assemble_page(study.dump());
+  // On one line; bytes that are no UTF-8 are replaced, as in study.json.
+  return assemble_page(study.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 std::string study_summary(const Json& study, std::string_view quantity) {

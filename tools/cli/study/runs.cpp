@@ -10,11 +10,11 @@
 
 #include "engine/base/error.h"
 #include "engine/base/nearest_name.h"
-#include "engine/scene/build_shape.h"
 #include "engine/scene/estimate.h"
 #include "engine/scene/fields.h"
 #include "engine/scene/reader.h"
 #include "engine/scene/with_kernel.h"
+#include "tools/cli/study/scene_files.h"
 
 namespace firn {
 namespace {
@@ -92,30 +92,10 @@ Json json_of(const std::string& toml) {
   return value.is_discarded() ? Json(toml) : value;
 }
 
-/// Files that the scene's shapes and points are read from: when one changes, so do the results.
-void files_of(const ShapeDescription& shape, std::vector<std::string>& out) {
-  if (const auto* mesh = std::get_if<MeshDescription>(&shape.kind)) out.push_back(mesh->file.text);
-  if (const auto* set = std::get_if<LevelSetDescription>(&shape.kind)) out.push_back(set->file.text);
-  if (const auto* parts = std::get_if<CombinationDescription>(&shape.kind))
-    for (const ShapeDescription& part : parts->operands) files_of(part, out);
-}
-
 std::uint64_t key_of(const SceneDescription& scene, const StudyRun& run) {
-  std::vector<std::string> files;
-  for (const BodyDescription& body : scene.bodies) {
-    if (body.shape) files_of(*body.shape, files);
-    if (body.points) files.push_back(body.points->text);
-  }
-  for (const ColliderDescription& collider : scene.colliders) files_of(collider.shape, files);
-  for (const LoadDescription& load : scene.loads) files_of(load.region, files);
-  std::uint64_t key = hash(fmt::format("{} threads {} repeats {}", scene.as_run, run.threads, run.repeats));
-  for (const std::string& file : files) {
-    std::error_code none;
-    const auto path = resolve_file(scene.file.parent_path(), file);
-    const auto changed = std::filesystem::last_write_time(path, none).time_since_epoch().count();
-    key = hash(fmt::format("{} {}", path.string(), changed), key);
-  }
-  return key;
+  const std::uint64_t text =
+      hash(fmt::format("{} threads {} repeats {}", scene.as_run, run.threads, run.repeats));
+  return hash(scene_files_stamp(scene), text);
 }
 
 /// Fills in what the scene says of a run.
@@ -148,17 +128,25 @@ StudyRun combine(const StudyDescription& study, const SceneDescription& scene, c
   return run;
 }
 
+/// Between single quotes only a single quote means anything.
+std::string quoted_for_shell(std::string_view word) {
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
 void check_threads(const StudyDescription& study) {
   Problems problems;
   for (const Sweep& sweep : study.sweeps)
-    for (const Axis& axis : sweep.axes)
+    for (const Axis& axis : sweep.axes) {
+      if (axis.name != kThreads) continue;
       for (const std::string& value : axis.values) {
-        if (axis.name != kThreads) continue;
         const Json number = json_of(value);
         if (number.is_number_integer() && number >= 1 && number <= 1024) continue;
         problems.add(axis.mark, axis.name,
                      fmt::format("found {}; allowed: integers, 1 to 1024", printable(value)));
       }
+    }
   problems.throw_if_any();
 }
 
@@ -250,8 +238,8 @@ std::string arguments_text(const StudyRun& run) {
     if (word.size() > value + 1 && word[value] == '"' && word.back() == '"' &&
         word.find_first_not_of(kPlain, value + 1) == word.size() - 1)
       word = word.substr(0, value) + word.substr(value + 1, word.size() - value - 2);
-    if (word.find_first_not_of(kPlain) != std::string::npos) word = "'" + word + "'";
-    out += fmt::format("{}--set {}", out.empty() ? "" : " ", word);
+    out += fmt::format("{}--set {}", out.empty() ? "" : " ",
+                       word.find_first_not_of(kPlain) == std::string::npos ? word : quoted_for_shell(word));
   }
   return out + fmt::format("{}--threads {}", out.empty() ? "" : " ", run.threads);
 }
