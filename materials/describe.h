@@ -21,6 +21,9 @@ constexpr Parameter poissons_ratio_parameter(double default_value = kRequired) {
       "poissons_ratio", "-", "nu: lateral contraction over extension", default_value, -1, 0.5, true, true};
 }
 
+/// What a return map in shear may keep.
+inline constexpr std::string_view kVolumeChoices[] = {"preserve", "published"};
+
 /// The description of `Model`, from what its type says and the words given here.
 template <class Model>
 ModelInfo describe(std::string_view title, std::string_view source) {

@@ -18,6 +18,11 @@ struct Elastic {
   Lame<double> moduli;  // Pa
 
   template <class L, int D>
+  ElasticPoint<L, D> at_rest() const {
+    return {Matrix<L, D>::identity()};
+  }
+
+  template <class L, int D>
   Response<L, D> update(ElasticPoint<L, D>& p, L) const {
     const Lame<L> m = moduli.as<L>();
     if constexpr (DirectEnergy<Energy>) {

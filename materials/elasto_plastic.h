@@ -31,6 +31,11 @@ struct ElastoPlastic {
   HardeningPart hardening;
 
   template <class L, int D>
+  PlasticPoint<L, D> at_rest() const {
+    return {Matrix<L, D>::identity(), Matrix<L, D>::identity()};
+  }
+
+  template <class L, int D>
   Response<L, D> update(PlasticPoint<L, D>& p, L) const {
     if constexpr (kHasNearRest<Energy, L, D>) {
       const NearRotation<L> near(p.F_E);

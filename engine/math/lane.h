@@ -48,6 +48,12 @@ inline float log(float x) {
 inline double log(double x) {
   return std::log(x);
 }
+inline float sin(float x) {
+  return std::sin(x);
+}
+inline double sin(double x) {
+  return std::sin(x);
+}
 inline float abs(float x) {
   return std::fabs(x);
 }

@@ -19,10 +19,12 @@ enum class Column : std::uint8_t {
   volume,               // V0, m^D: volume at rest
   elastic_deformation,  // F_E
   plastic_deformation,  // F_P
+  hardening,            // alpha: what a yield surface hardens with; its model says what it means
+  volume_gain,          // v_c: logarithmic volume by which matter has come apart
   stress,               // tau, Pa: Kirchhoff stress, symmetric
   force,                // f, N: from outside, on the particle itself
 };
-inline constexpr int kColumnCount = 9;
+inline constexpr int kColumnCount = 11;
 
 enum class Rank : std::uint8_t { scalar, vector, matrix, symmetric };
 
@@ -39,6 +41,8 @@ inline constexpr std::array<ColumnInfo, kColumnCount> kColumnInfo = {{
     {"rest volume", "V0", "m^D", Rank::scalar},
     {"elastic deformation", "F_E", "-", Rank::matrix},
     {"plastic deformation", "F_P", "-", Rank::matrix},
+    {"hardening variable", "alpha", "-", Rank::scalar},
+    {"volume gain", "v_c", "-", Rank::scalar},
     {"Kirchhoff stress", "tau", "Pa", Rank::symmetric},
     {"force", "f", "N", Rank::vector},
 }};
@@ -110,5 +114,9 @@ class ColumnSet {
   static constexpr std::uint32_t bit(Column c) { return std::uint32_t{1} << static_cast<unsigned>(c); }
   std::uint32_t bits_ = 0;
 };
+
+/// What a material reads and changes of a particle: its deformation and its history.
+inline constexpr ColumnSet kMaterialState{Column::elastic_deformation, Column::plastic_deformation,
+                                          Column::hardening, Column::volume_gain};
 
 }  // namespace firn

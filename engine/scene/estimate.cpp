@@ -16,8 +16,7 @@ template <int D>
 double wave_speed_at_rest(const Material& material, double density) {
   return std::visit(
       [&](const auto& model) {
-        typename std::remove_cvref_t<decltype(model)>::template Point<double, D> point;
-        point.visit([](auto, auto& F) { F = std::remove_cvref_t<decltype(F)>::identity(); });
+        auto point = model.template at_rest<double, D>();
         return std::sqrt(model.update(point, 0.0).wave_modulus / density);
       },
       material);

@@ -20,10 +20,17 @@ void SchemaWriter::model(const Key& key, const MaterialDescription&) {
     SchemaWriter& branch = branches_.emplace_back();
     branch.add({key.name, key.need, model.title}, {{"const", model.name}});
     for (const Parameter& p : model.parameters) {
-      branch.real({p.name, p.required() ? Need::required : Need::optional, p.meaning, p.unit},
-                  p.default_value, Range::of(p));
+      branch.parameter(p);
     }
   }
+}
+
+void SchemaWriter::parameter(const Parameter& p) {
+  const Key key = {p.name, p.required() ? Need::required : Need::optional, p.meaning, p.unit};
+  if (p.choices.empty()) return real(key, p.default_value, Range::of(p));
+  const auto chosen = static_cast<std::size_t>(p.default_value);
+  if (p.is_switch()) return add_value(key, {{"type", "boolean"}}, chosen == 1);
+  add_value(key, {{"enum", p.choices}}, std::string(p.choices[chosen]));
 }
 
 void SchemaWriter::kind(const Key& key, const ShapeDescription::Kind&) {

@@ -80,6 +80,8 @@ class TableReader {
   std::optional<Name> read_text(const Key& key, std::string_view allowed);
   std::optional<Name> read_file(const Key& key);
   /// Index of the word written, one of `words`.
+  /// Of a model; empty where the scene leaves it out, or where it is refused.
+  std::optional<double> read_parameter(const Parameter& p);
   std::optional<std::size_t> read_word(const Key& key, std::span<const std::string_view> words);
   const toml::table* read_table(const Key& key);
   const toml::array* read_array(const Key& key, std::string_view allowed, std::size_t least);

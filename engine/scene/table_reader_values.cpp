@@ -117,13 +117,27 @@ void TableReader::model(const Key& key, MaterialDescription& out) {
   if (!index) return learn_every_model();
   const ModelInfo& model = models()[*index];
   out.model = {std::string(model.name), context_.report.mark(table_.get(key.name)->source())};
-  for (const Parameter& p : model.parameters) {
-    const Need need = p.required() ? Need::required : Need::optional;
-    std::optional<double> value;
-    real({p.name, need, p.meaning, p.unit}, value, Range::of(p));
-    if (value)
+  for (const Parameter& p : model.parameters)
+    if (const std::optional<double> value = read_parameter(p))
       out.parameters[std::string(p.name)] = {*value, context_.report.mark(table_.get(p.name)->source())};
+}
+
+std::optional<double> TableReader::read_parameter(const Parameter& p) {
+  const Key key = {p.name, p.required() ? Need::required : Need::optional, p.meaning, p.unit};
+  if (p.is_switch()) {
+    const toml::node* node = find(key, p.range());
+    if (!node) return std::nullopt;
+    if (const auto on = node->value_exact<bool>()) return *on ? 1 : 0;
+    refuse(key.name, *node, p.range());
+    return std::nullopt;
   }
+  if (!p.choices.empty()) {
+    const auto index = read_word(key, p.choices);
+    return index ? std::optional<double>(static_cast<double>(*index)) : std::nullopt;
+  }
+  std::optional<double> value;
+  real(key, value, Range::of(p));
+  return value;
 }
 
 void TableReader::learn_every_shape() {

@@ -67,7 +67,12 @@ void TomlWriter::model(const Key& key, MaterialDescription& value) {
     const Need need = p.required() ? Need::required : Need::optional;
     const double number =
         found == value.parameters.end() ? p.default_value : std::get<double>(found->second.value);
-    real({p.name, need, p.meaning, p.unit}, number, Range::of(p));
+    const Key parameter = {p.name, need, p.meaning, p.unit};
+    if (p.choices.empty()) {
+      real(parameter, number, Range::of(p));
+    } else {
+      add(parameter, p.text(number), p.range());
+    }
   }
 }
 

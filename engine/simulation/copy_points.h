@@ -16,9 +16,13 @@ void copy_points(const Model& model, const ParticleTable<Real, D>& particles, Ma
     double J = 1;
     point.visit([&](auto column, auto& value) {
       const auto stored = particles.template view<column()>().load(p);
-      for (int i = 0; i < D; ++i)
-        for (int j = 0; j < D; ++j) value(i, j) = static_cast<double>(stored(i, j));
-      J *= determinant(value);
+      if constexpr (info(column()).rank == Rank::matrix) {
+        for (int i = 0; i < D; ++i)
+          for (int j = 0; j < D; ++j) value(i, j) = static_cast<double>(stored(i, j));
+        J *= determinant(value);
+      } else {
+        value = static_cast<double>(stored);
+      }
     });
     // The state is behind its return map, which in no time changes nothing more.
     const Matrix<double, D> tau = model.update(point, 0.0).tau;

@@ -111,8 +111,7 @@ class ParticleSimulation : public Simulation {
                      std::vector<Cost>& out) const {
     for (std::size_t b = 0; b < batches_.size(); ++b)
       out.push_back({plan_->batches[b].material, "material", passes, material[b],
-                     column_bytes(batches_[b], {Column::elastic_deformation, Column::plastic_deformation,
-                                                Column::stress})});
+                     column_bytes(batches_[b], kMaterialState | ColumnSet{Column::stress})});
   }
 
   /// Takes over what the materials of a step answered, one report per batch.

@@ -42,6 +42,12 @@ class StartVelocity {
   double step_;  // m, of the differences
 };
 
+template <class Model, class Real, int D>
+void store_at_rest(const Model& model, ParticleTable<Real, D>& table, std::size_t p) {
+  auto point = model.template at_rest<Real, D>();
+  point.visit([&](auto column, const auto& value) { table.template view<column()>().store(p, value); });
+}
+
 /// One batch per material of the plan; ids count through the bodies in the order of the scene.
 template <class Real, int D>
 std::vector<Batch<Real, D>> seed_batches(const Plan& plan, std::span<const Seeds> seeds) {
@@ -59,7 +65,6 @@ std::vector<Batch<Real, D>> seed_batches(const Plan& plan, std::span<const Seeds
     auto& table = batches[batch].particles;
     const double volume = body.volume / static_cast<double>(body.position.size());
     const StartVelocity start(plan.scene.bodies[b], body, plan.cell_size());
-    const auto F_one = Matrix<Real, D>::identity();
     for (std::size_t k = 0; k < body.position.size(); ++k, ++id) {
       const std::size_t p = next[batch]++;
       const Vec3& x = body.position[k];
@@ -69,9 +74,7 @@ std::vector<Batch<Real, D>> seed_batches(const Plan& plan, std::span<const Seeds
       table.template view<Column::velocity>().store(p, to_vector<Real, D>(v));
       table.template view<Column::volume>().store(p, static_cast<Real>(volume));
       table.template view<Column::mass>().store(p, static_cast<Real>(volume * plan.batches[batch].density));
-      table.template view<Column::elastic_deformation>().store(p, F_one);
-      if (table.columns().has(Column::plastic_deformation))
-        table.template view<Column::plastic_deformation>().store(p, F_one);
+      std::visit([&](const auto& law) { store_at_rest(law, table, p); }, plan.batches[batch].law);
       if (table.columns().has(Column::affine)) {
         Matrix<Real, D> C;
         for (int j = 0; j < D; ++j) {

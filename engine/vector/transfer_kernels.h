@@ -158,7 +158,7 @@ struct TileColumns {
   ColumnSet read, written;
 };
 constexpr TileColumns columns_of(Stages stages) {
-  const ColumnSet state{Column::position, Column::elastic_deformation, Column::plastic_deformation};
+  const ColumnSet state = kMaterialState | ColumnSet{Column::position};
   const ColumnSet motion{Column::velocity, Column::affine};
   const ColumnSet read = state | ColumnSet{Column::mass, Column::volume};
   if (stages == Stages::begin) return {read | motion, state};

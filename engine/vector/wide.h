@@ -84,6 +84,7 @@ FIRN_WIDE_UNARY(abs, hn::Abs(x))
 FIRN_WIDE_UNARY(floor, hn::Floor(x))
 FIRN_WIDE_UNARY(exp, hn::Exp(hn::ScalableTag<R>(), x))
 FIRN_WIDE_UNARY(log, hn::Log(hn::ScalableTag<R>(), x))
+FIRN_WIDE_UNARY(sin, hn::Sin(hn::ScalableTag<R>(), x))
 #undef FIRN_WIDE_UNARY
 
 #define FIRN_WIDE_COMPARE(op, function)                                           \

@@ -11,23 +11,39 @@ namespace {
 template <class Real>
 constexpr double kRound = 60 * std::numeric_limits<Real>::epsilon();
 
+// F; of a fluid, which forgets its shape, a matrix of the same volume.
 template <class C>
 Matrix<typename C::Real, C::D> total(const typename C::Point& p) {
-  if constexpr (C::plastic) {
+  if constexpr (C::fluid) {
+    auto out = Matrix<typename C::Real, C::D>::identity();
+    out(0, 0) = determinant(p.F_E);
+    return out;
+  } else if constexpr (C::plastic) {
     return p.F_E * p.F_P;
   } else {
     return p.F_E;
   }
 }
 
-// How far the singular values of F_E lie outside of what the model allows.
+// How far the singular values of F_E lie outside of what the model allows with this history.
 template <class Model, class Real, int D>
-double outside(const Model& model, const Matrix<Real, D>& F_E) {
+double outside(const Model& model, const Matrix<Real, D>& F_E, [[maybe_unused]] auto history) {
+  const Vector<Real, D> s = svd(F_E).s;
   if constexpr (requires { model.yield; }) {
-    const Vector<Real, D> s = svd(F_E).s;
     return static_cast<double>(norm(model.yield.project(s) - s));
+  } else if constexpr (requires { model.flow; }) {
+    const Lame<Real> m = model.moduli.template as<Real>();
+    return static_cast<double>(norm(model.flow.project(s, m, history, Real(1e-3)) - s));
   } else {
     return 0;
+  }
+}
+template <class Point>
+auto history_of(const Point& p) {
+  if constexpr (requires { p.history; }) {
+    return p.history;
+  } else {
+    return NoHistory<float>{};
   }
 }
 
@@ -50,17 +66,23 @@ Matrix<double, C::D> nasty(Draw& draw) {
 
 }  // namespace
 
+// A rate leaves a point outside and lets it go on (see models of their own); the others are where they stay.
+// The friction of sand and the size of Cam-clay's ellipse are those at the start of the step: so is the
+// history here.
 TEMPLATE_LIST_TEST_CASE("the return map lands inside the yield set, and repeated changes nothing",
                         "[materials]", AllCases) {
   using C = TestType;
   using Real = typename C::Real;
+  if constexpr (C::viscous) return;
   const auto model = sample_model<typename C::Model>();
   Draw draw(21);
   for (int n = 0; n < 300; ++n) {
     auto p =
         point_at<C>(near_rest<C::D>(draw, draw.of<double>({1e-3, 0.02, 0.5})), near_rest<C::D>(draw, 0.05));
+    const auto history = history_of(p);
     const auto first = model.update(p, Real(1e-3));
-    CHECK(outside(model, p.F_E) < kRound<Real>);
+    if constexpr (C::lagged) p.history = history;
+    CHECK(outside(model, p.F_E, history_of(p)) < kRound<Real>);
     const auto before = p;
     const auto again = model.update(p, Real(1e-3));
     CHECK(largest_entry(p.F_E - before.F_E) < kRound<Real>);
@@ -77,10 +99,10 @@ TEMPLATE_LIST_TEST_CASE("an elastic step changes no bit of the deformation and d
   const auto model = sample_model<typename C::Model>();
   Draw draw(22);
   for (int n = 0; n < 300; ++n) {
-    auto p = point_at<C>(near_rest<C::D>(draw, 5e-3), near_rest<C::D>(draw, 0.05));
+    auto p = point_at<C>(elastic_state<C>(draw), near_rest<C::D>(draw, 0.05));
     const auto before = p;
     const auto response = model.update(p, Real(1e-3));
-    CHECK(largest_entry(p.F_E - before.F_E) == 0);
+    if constexpr (!C::fluid) CHECK(largest_entry(p.F_E - before.F_E) == 0);
     if constexpr (C::plastic) CHECK(largest_entry(p.F_P - before.F_P) == 0);
     CHECK(response.dissipated == 0);
   }
@@ -115,6 +137,11 @@ TEMPLATE_LIST_TEST_CASE("F_E F_P stays F over ten thousand small steps", "[mater
   }
   // Each step rounds a few times, at random: 2 eps sqrt(steps), times F's condition, which a random walk of
   // 0.2 makes about 2. A rebuilt F_E drifts by eps * steps.
+  if (C::fluid) {
+    const double J = determinant(F);
+    F = Matrix<double, C::D>::identity();
+    F(0, 0) = J;
+  }
   const double bound =
       10 * std::numeric_limits<Real>::epsilon() * std::sqrt(double(steps)) * std::fmax(1, largest_entry(F));
   CHECK(difference(total<C>(p), cast<Real>(F), 1) < bound);
@@ -138,26 +165,37 @@ TEMPLATE_LIST_TEST_CASE("plastic work is not negative", "[materials]", AllCases)
     CHECK(std::fabs(stored - static_cast<double>(model.energy(p)) - work) <= round);
     dissipated += work;
   }
-  CHECK((dissipated > 0) == C::plastic);
+  // In one dimension there is no shear, and what keeps the volume never flows.
+  CHECK((dissipated > 0) == (C::plastic && !(C::D == 1 && C::isochoric)));
 }
 
+// Half of them nasty, half of them ordinary; each number type takes its half of a million.
 TEMPLATE_LIST_TEST_CASE("no deformation, however broken, gives a NaN or an endless wave speed", "[materials]",
                         AllCases) {
   using C = TestType;
   using Real = typename C::Real;
   const auto model = sample_model<typename C::Model>();
   Draw draw(26);
-  for (int n = 0; n < 3000; ++n) {
-    const Matrix<double, C::D> F = n == 0 ? Matrix<double, C::D>::zero() : nasty<C>(draw);
+  const int states = C::D == 1 ? 3000 : 500'000;
+  int infinite = 0, outsiders = 0, inverted = 0;
+  for (int n = 0; n < states; ++n) {
+    const Matrix<double, C::D> F = n == 0       ? Matrix<double, C::D>::zero()
+                                   : n % 2 == 0 ? nasty<C>(draw)
+                                                : near_rest<C::D>(draw, draw.of<double>({1e-9, 0.01, 0.9}));
     auto p = point_at<C>(F, near_rest<C::D>(draw, 0.1));
+    const auto history = history_of(p);
     const auto response = model.update(p, Real(1e-3));
-    INFO("s " << svd(F).s[0] << " .. " << svd(F).s[C::D - 1]);
-    CHECK(finite(response));
-    CHECK(std::isfinite(largest_entry(total<C>(p))));
-    CHECK(std::isfinite(model.energy(p)));
-    // F_E is corrected by (s* - s), so it is inside to the round-off of the largest s.
+    const bool sound =
+        finite(response) && std::isfinite(largest_entry(total<C>(p))) && std::isfinite(model.energy(p));
+    if (!sound && infinite++ == 0) UNSCOPED_INFO("s " << svd(F).s[0] << " .. " << svd(F).s[C::D - 1]);
     const double s0 = std::fmax(1, std::fabs(svd(F).s[0]));
-    CHECK(outside(model, p.F_E) < kRound<Real> * s0);
-    if (C::plastic && s0 * std::numeric_limits<Real>::epsilon() < 1e-3) CHECK(determinant(p.F_E) > 0);
+    // F_E is corrected by (s* - s), so it is inside to the round-off of the largest s.
+    if constexpr (requires { model.yield; })
+      outsiders += outside(model, p.F_E, history) < kRound<Real> * s0 ? 0 : 1;
+    if (C::plastic && s0 * std::numeric_limits<Real>::epsilon() < 1e-3)
+      inverted += determinant(p.F_E) > 0 ? 0 : 1;
   }
+  CHECK(infinite == 0);
+  CHECK(outsiders == 0);
+  CHECK(inverted == 0);
 }

@@ -1,5 +1,5 @@
-// A number that counts the floating-point operations done with it: + - * / and each root, exponential or
-// logarithm are one. What only picks or moves bits (min, max, abs, signs, comparisons, selections) is none.
+// A number that counts the floating-point operations done with it: + - * / and each root, exponential,
+// logarithm or sine are one. What only picks or moves bits (min, max, abs, signs, comparisons, selections) is none.
 #pragma once
 
 #include <cstdint>
@@ -28,6 +28,7 @@ struct CountingLane {
   friend CountingLane sqrt(CountingLane a) { return counted(firn::sqrt(a.x)); }
   friend CountingLane exp(CountingLane a) { return counted(firn::exp(a.x)); }
   friend CountingLane log(CountingLane a) { return counted(firn::log(a.x)); }
+  friend CountingLane sin(CountingLane a) { return counted(firn::sin(a.x)); }
   friend CountingLane inverse_sqrt(CountingLane a) { return counted(firn::inverse_sqrt(a.x)); }
   friend CountingLane rough_inverse_sqrt(CountingLane a) { return counted(firn::rough_inverse_sqrt(a.x)); }
 

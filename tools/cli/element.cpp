@@ -24,30 +24,45 @@ json rows_of(const Matrix<double, D>& m) {
 template <class Point>
 constexpr bool has_plastic_part = Point::columns.has(Column::plastic_deformation);
 
-template <int D, class Model>
-std::string branch_of(const Model& model, const Matrix<double, D>& F_trial) {
+template <int D, class Model, class Point>
+std::string branch_of(const Model& model, const Point& trial, double dt) {
   if constexpr (requires { model.yield; }) {
-    return model.yield.branch(svd(F_trial).s);
+    return model.yield.branch(svd(trial.F_E).s);
+  } else if constexpr (requires { model.flow; }) {
+    const Stretches<double, D> stretches(svd_any_order(trial.F_E).s);
+    return model.flow.branch(stretches.s, model.moduli, trial.history, dt);
   } else {
     return "elastic";
   }
 }
 
+/// Calls f(name, number) for each history variable of the point.
+template <class Model, class Point, class F>
+void visit_history(Point& point, F&& f) {
+  const ModelInfo& model = *find_model(Model::name);
+  point.visit([&](auto column, auto& value) {
+    if constexpr (info(column()).rank == Rank::scalar) f(std::string(history_name(model, column())), value);
+  });
+}
+
 template <int D, class Model>
 ordered_json answer(const Model& model, const ElementRequest& request) {
   using Energy = typename Model::Energy;
-  typename Model::template Point<double, D> point;
-  const Matrix<double, D> F_trial = to_matrix<D>(request.F_trial);
+  auto point = model.template at_rest<double, D>();
   Matrix<double, D> F_P = to_matrix<D>(request.F_P);
-  point.F_E = F_trial;
+  point.F_E = to_matrix<D>(request.F_trial);
   if constexpr (has_plastic_part<decltype(point)>) point.F_P = F_P;
+  visit_history<Model>(point, [&](const std::string& name, double& value) {
+    if (const auto given = request.state.find(name); given != request.state.end()) value = given->second;
+  });
+  const auto trial = point;
 
   const Response<double, D> response = model.update(point, request.dt);
   const Lame<double> moduli = model.current_moduli(point);
   if constexpr (has_plastic_part<decltype(point)>) F_P = point.F_P;
 
   ordered_json out;
-  out["branch"] = branch_of(model, F_trial);
+  out["branch"] = branch_of<D>(model, trial, request.dt);
   out["psi"] = model.energy(point);
   out["P"] = rows_of(first_piola<Energy>(point.F_E, moduli));
   out["tau"] = rows_of(response.tau);
@@ -57,6 +72,7 @@ ordered_json answer(const Model& model, const ElementRequest& request) {
   if constexpr (has_plastic_part<decltype(point)>)
     // From the singular values: a determinant by cofactors cancels when F_P is ill-conditioned.
     out["state"] = {{"J_P", product(svd(F_P).s)}, {"mu", moduli.mu}, {"lam", moduli.lam}};
+  visit_history<Model>(point, [&](const std::string& name, double value) { out["state"][name] = value; });
   out["wave_modulus"] = response.wave_modulus;
   out["dissipated"] = response.dissipated;
   out["capped"] = response.capped > 0;

@@ -44,19 +44,35 @@ const ModelInfo& find_model_in(const json& material) {
   refuse("material.model: " + unknown_name("model", name.get<std::string>(), known));
 }
 
-// mu and lam may stand in place of youngs_modulus and poissons_ratio.
-std::optional<Lame<double>> lame_in(const json& material) {
-  const bool mu = material.contains("mu"), lam = material.contains("lam");
-  if (!mu && !lam) return std::nullopt;
-  if (!mu || !lam) refuse(fmt::format("material.{}: is missing; mu and lam go together", mu ? "lam" : "mu"));
+// mu with lam or kappa (of d dimensions) may stand in place of youngs_modulus and poissons_ratio; mu alone
+// means lam = 0, for models that keep the volume and do not care.
+std::optional<Lame<double>> lame_in(const json& material, std::size_t dimension) {
+  const bool mu = material.contains("mu"), lam = material.contains("lam"), kappa = material.contains("kappa");
+  if (!mu && !lam && !kappa) return std::nullopt;
+  if (!mu) refuse("material.mu: is missing; mu goes with lam or kappa");
+  if (lam && kappa) refuse("material.kappa: give either it or lam");
   for (const char* other : {"youngs_modulus", "poissons_ratio"})
     if (material.contains(other)) refuse(fmt::format("material.{}: give either it or mu and lam", other));
-  const Lame<double> m = {number("material.mu", material.at("mu")),
-                          number("material.lam", material.at("lam"))};
+  Lame<double> m = {number("material.mu", material.at("mu")), 0};
   if (!(m.mu > 0 && m.mu <= 1e15)) refuse(fmt::format("material.mu: found {}; allowed: in (0, 1e+15]", m.mu));
-  if (!(3 * m.lam > -2 * m.mu && m.lam <= 1e15))
-    refuse(fmt::format("material.lam: found {}; allowed: in (-2/3 mu, 1e+15]", m.lam));
+  if (kappa) {
+    const double bulk = number("material.kappa", material.at("kappa"));
+    if (!(bulk > 0 && bulk <= 1e15))
+      refuse(fmt::format("material.kappa: found {}; allowed: in (0, 1e+15]", bulk));
+    m.lam = bulk - 2 * m.mu / static_cast<double>(dimension);
+  } else if (lam) {
+    m.lam = number("material.lam", material.at("lam"));
+    if (!(3 * m.lam > -2 * m.mu && m.lam <= 1e15))
+      refuse(fmt::format("material.lam: found {}; allowed: in (-2/3 mu, 1e+15]", m.lam));
+  }
   return m;
+}
+
+double chosen_value(const Parameter& p, const std::string& key, const json& value) {
+  if (p.is_switch() && value.is_boolean()) return value.get<bool>() ? 1 : 0;
+  for (std::size_t k = 0; !p.is_switch() && k < p.choices.size(); ++k)
+    if (value == p.choices[k]) return static_cast<double>(k);
+  refuse(fmt::format("{}: found {}; allowed: {}", key, shown(value), p.range()));
 }
 
 double parameter_value(const Parameter& p, const json& material, bool unused) {
@@ -66,21 +82,22 @@ double parameter_value(const Parameter& p, const json& material, bool unused) {
     if (p.required() && !unused) refuse(fmt::format("{}: is missing; {}, {}", key, p.meaning, p.range()));
     return p.required() ? 0 : p.default_value;
   }
+  if (!p.choices.empty()) return chosen_value(p, key, *found);
   const double value = number(key, *found);
   if (!p.allows(value)) refuse(fmt::format("{}: found {}; allowed: {}", key, value, p.range()));
   return value;
 }
 
-Material material_in(const json& line) {
+Material material_in(const json& line, std::size_t dimension) {
   if (!line.contains("material")) refuse("material: is missing");
   const json& material = line.at("material");
   if (!material.is_object()) refuse(fmt::format("material: found {}; an object is needed", shown(material)));
   const ModelInfo& model = find_model_in(material);
-  std::vector<std::string_view> known = {"model", "mu", "lam"};
+  std::vector<std::string_view> known = {"model", "mu", "lam", "kappa"};
   for (const Parameter& p : model.parameters) known.push_back(p.name);
   check_keys(fmt::format("parameter of '{}'", model.name), material, known);
 
-  const std::optional<Lame<double>> given = lame_in(material);
+  const std::optional<Lame<double>> given = lame_in(material, dimension);
   ParameterValues values;
   for (const Parameter& p : model.parameters) {
     // A single point has no mass, so a line need not give the density.
@@ -124,23 +141,38 @@ std::size_t dimension_in(const json& line) {
   return d.get<std::size_t>();
 }
 
-void check_state(const json& line) {
-  if (!line.contains("state")) return;
+std::map<std::string, double> state_in(const json& line, const ModelInfo& model) {
+  std::map<std::string, double> out;
+  if (!line.contains("state")) return out;
   const json& state = line.at("state");
   if (!state.is_object()) refuse(fmt::format("state: found {}; an object is needed", shown(state)));
-  if (!state.empty())
+  std::vector<std::string_view> known;
+  for (const Column c : {Column::hardening, Column::volume_gain})
+    if (model.columns.has(c)) known.push_back(history_name(model, c));
+  if (known.empty() && !state.empty())
     refuse(fmt::format("state: unknown key '{}'; this model's whole state is F_P",
                        printable(state.begin().key())));
+  check_keys("state", state, known);
+  for (const auto& [key, value] : state.items()) {
+    out[key] = number("state." + key, value);
+    if (!std::isfinite(out[key])) refuse(fmt::format("state.{}: is not finite", key));
+  }
+  return out;
 }
 
 }  // namespace
+
+std::string_view history_name(const ModelInfo& model, Column column) {
+  if (column == Column::volume_gain) return info(column).symbol;
+  return model.columns.has(Column::volume_gain) ? "q" : info(column).symbol;
+}
 
 ElementRequest parse_element_request(const json& line) {
   if (!line.is_object()) refuse(fmt::format("found {}; an object is needed", shown(line)));
   check_keys("key", line, {"id", "dimension", "dt", "material", "F_trial", "F_P", "state", "tangent"});
   const std::size_t d = dimension_in(line);
-  ElementRequest out{material_in(line), 0, rows_in("F_trial", line.at("F_trial"), d), {}, false};
-  check_state(line);
+  ElementRequest out{material_in(line, d), 1e-3, rows_in("F_trial", line.at("F_trial"), d), {}, {}, false};
+  out.state = state_in(line, find_model_in(line.at("material")));
   if (line.contains("dt")) out.dt = number("dt", line.at("dt"));
   if (!(out.dt >= 0 && std::isfinite(out.dt))) refuse(fmt::format("dt: found {}; allowed: >= 0", out.dt));
   if (line.contains("tangent")) {

@@ -14,7 +14,7 @@ namespace firn {
 namespace {
 
 std::string default_of(const Parameter& p) {
-  return p.required() ? "required" : fmt::format("{:g}", p.default_value);
+  return p.required() ? "required" : p.text(p.default_value);
 }
 
 std::string columns_of(const ModelInfo& m) {

@@ -43,6 +43,7 @@ struct PairOf {
   }
   friend PairOf exp(PairOf x) { return {firn::exp(x.a), firn::exp(x.b)}; }
   friend PairOf log(PairOf x) { return {firn::log(x.a), firn::log(x.b)}; }
+  friend PairOf sin(PairOf x) { return {firn::sin(x.a), firn::sin(x.b)}; }
   friend PairOf abs(PairOf x) { return {firn::abs(x.a), firn::abs(x.b)}; }
   friend PairOf copysign(PairOf x, PairOf y) { return {firn::copysign(x.a, y.a), firn::copysign(x.b, y.b)}; }
   friend PairOf inverse_sqrt(PairOf x) {

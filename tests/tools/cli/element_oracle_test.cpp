@@ -1,53 +1,15 @@
 // Values computed elsewhere, at high precision, for energies and return maps: asked for as a user does, line
 // by line through `firn element`. The files under tests/data/oracles state a tolerance beside each value;
 // those of return maps are relative to the value's largest entry where that exceeds 1.
-#include <fstream>
-#include <sstream>
-
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 #include "engine/math/svd.h"
-#include "tools/cli/element.h"
+#include "tests/tools/cli/oracles.h"
 
 using nlohmann::json;
+using namespace firn::test;
 
 namespace {
-
-json oracles(const std::string& name) {
-  std::ifstream file(std::string(FIRN_TEST_DATA) + "/oracles/" + name + ".json");
-  REQUIRE(file);
-  return json::parse(file);
-}
-
-json ask(const json& request) {
-  std::istringstream in(request.dump() + "\n");
-  std::ostringstream out;
-  REQUIRE(firn::run_element(in, out) == 0);
-  return json::parse(out.str());
-}
-
-std::vector<double> numbers(const json& value) {
-  if (value.is_number()) return {value.get<double>()};
-  std::vector<double> out;
-  for (const json& child : value)
-    for (double x : numbers(child)) out.push_back(x);
-  return out;
-}
-
-double largest(const json& value) {
-  double out = 0;
-  for (double x : numbers(value)) out = std::fmax(out, std::fabs(x));
-  return out;
-}
-
-double largest_difference(const json& found, const json& expected) {
-  const std::vector<double> a = numbers(found), b = numbers(expected);
-  REQUIRE(a.size() == b.size());
-  double out = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) out = std::fmax(out, std::fabs(a[i] - b[i]));
-  return out;
-}
 
 void check_energy(const std::string& model) {
   for (const json& o : oracles(model)) {
@@ -79,10 +41,6 @@ json ask_snow(const json& o) {
                 {"hardening_cap", 1e308}}},
               {"F_trial", o["in"]["F"]},
               {"F_P", o["in"]["FP"]}});
-}
-
-void check_value(const json& found, const json& expected, const json& tolerance) {
-  CHECK(largest_difference(found, expected) <= tolerance.get<double>() * std::fmax(1, largest(expected)));
 }
 
 template <int D>

@@ -100,9 +100,11 @@ TEST_CASE("element names the nearest model, parameter and key", "[element]") {
   CHECK(error_of_material(R"("model":"snow_stomakin_2013")") ==
         "material.model: unknown model 'snow_stomakin_2013'; did you mean 'snow_stomakhin_2013'? known: "
         "neo_hookean, "
-        "fixed_corotated, stvk_hencky, snow_stomakhin_2013");
+        "fixed_corotated, stvk_hencky, snow_stomakhin_2013, sand_klar_2016, sand_perzyna, von_mises, "
+        "von_mises_voce, johnson_cook_1983, von_mises_perzyna, nacc_wolper_2019, "
+        "herschel_bulkley_yue_2015, flow_bargteil_2007, rankine, fluid");
   CHECK(error_of_material(R"("model":"snow_stomakhin_2013","thetac":0.1)") ==
-        "unknown parameter of 'snow_stomakhin_2013' 'thetac'; did you mean 'theta_c'? known: model, mu, lam, "
+        "unknown parameter of 'snow_stomakhin_2013' 'thetac'; did you mean 'theta_c'? known: model, mu, lam, kappa, "
         "density, "
         "youngs_modulus, poissons_ratio, theta_c, theta_s, xi, hardening_cap");
   CHECK(error_of(kSoft + R"(,"F_trail":[[1]])") ==
@@ -119,8 +121,8 @@ TEST_CASE("element refuses values out of range, of the wrong shape or missing", 
         "material.poissons_ratio: found 0.5; allowed: in (-1, 0.5)");
   CHECK(error_of_material(R"("model":"neo_hookean","youngs_modulus":1)") ==
         "material.poissons_ratio: is missing; nu: lateral contraction over extension, in (-1, 0.5)");
-  CHECK(error_of_material(R"("model":"neo_hookean","mu":1)") ==
-        "material.lam: is missing; mu and lam go together");
+  CHECK(error_of_material(R"("model":"neo_hookean","lam":1)") ==
+        "material.mu: is missing; mu goes with lam or kappa");
   CHECK(error_of_material(R"("model":"neo_hookean","mu":-1,"lam":0)") ==
         "material.mu: found -1; allowed: in (0, 1e+15]");
   CHECK(error_of_material(R"("mu":-1)") == "material.model: is missing");

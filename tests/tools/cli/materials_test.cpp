@@ -38,6 +38,8 @@ TEST_CASE("firn materials names the nearest model", "[materials]") {
     CHECK(std::string(e.what()) ==
           "unknown model 'stvk_henky'; did you mean 'stvk_hencky'? known: neo_hookean, fixed_corotated, "
           "stvk_hencky, "
-          "snow_stomakhin_2013");
+          "snow_stomakhin_2013, sand_klar_2016, sand_perzyna, von_mises, von_mises_voce, "
+          "johnson_cook_1983, von_mises_perzyna, nacc_wolper_2019, herschel_bulkley_yue_2015, "
+          "flow_bargteil_2007, rankine, fluid");
   }
 }

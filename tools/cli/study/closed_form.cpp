@@ -22,13 +22,9 @@ Eigen::Matrix3d cauchy(const Material& law, const Eigen::Matrix3d& F) {
   Eigen::Matrix3d out = Eigen::Matrix3d::Zero();
   std::visit(
       [&](const auto& model) {
-        typename std::remove_cvref_t<decltype(model)>::template Point<double, D> point;
-        point.visit([&](auto column, auto& value) {
-          value = std::remove_cvref_t<decltype(value)>::identity();
-          if constexpr (column() == Column::elastic_deformation)
-            for (int i = 0; i < D; ++i)
-              for (int j = 0; j < D; ++j) value(i, j) = F(i, j);
-        });
+        auto point = model.template at_rest<double, D>();
+        for (int i = 0; i < D; ++i)
+          for (int j = 0; j < D; ++j) point.F_E(i, j) = F(i, j);
         const auto tau = model.update(point, 0.0).tau;
         const double J = F.determinant();
         for (int i = 0; i < D; ++i)
