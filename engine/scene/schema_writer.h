@@ -104,8 +104,14 @@ class SchemaWriter {
   }
   template <class T>
   void add_value(const Key& key, Json schema, const T& value) {
-    if (key.need == Need::optional) schema["default"] = value;
+    if (key.need == Need::optional && !is_infinite(value)) schema["default"] = value;
     add(key, std::move(schema));
+  }
+  // JSON has no infinity: no default, as if there were no limit.
+  template <class T>
+  static bool is_infinite(const T& value) {
+    if constexpr (std::is_floating_point_v<T>) return std::isinf(value);
+    return false;
   }
   template <class T>
   void add_value(const Key& key, Json schema, const std::optional<T>&) {

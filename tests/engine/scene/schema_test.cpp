@@ -89,7 +89,17 @@ TEST_CASE("the schema has a branch for every model with its parameters, limits a
       const bool is_required =
           std::find(required.begin(), required.end(), std::string(p.name)) != required.end();
       CHECK(is_required == p.required());
-      if (!p.required()) CHECK(properties[std::string(p.name)]["default"] == p.default_value);
+      const auto& property = properties[std::string(p.name)];
+      if (p.required() || std::isinf(p.default_value)) {
+        CHECK_FALSE(property.contains("default"));
+      } else if (p.is_switch()) {
+        CHECK(property["default"] == (p.default_value == 1));
+      } else if (!p.choices.empty()) {
+        CHECK(property["default"] == p.choices[static_cast<std::size_t>(p.default_value)]);
+        CHECK(property["enum"].size() == p.choices.size());
+      } else {
+        CHECK(property["default"] == p.default_value);
+      }
     }
   }
 }
