@@ -7,7 +7,7 @@
 // A way is a type with
 //
 //   stored_bytes        per particle
-//   prepare()           computes what is stored; nothing is where nothing is
+//   prepare()           computes what is stored, if anything is
 //   operator()(p, c)    weights of particle p, in the block at c, to call for_each of
 //
 // For kernels that do not depend on a particle's size. Gradients are by x/h.
