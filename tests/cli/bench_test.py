@@ -15,6 +15,8 @@ OF_CEILINGS = ["flops_per_particle_step", "bytes_per_particle_step", "fma_fracti
 VS_KEYS = ["case", "precision", "threads", "isa", "particles", "ns_per_particle_step", "median_ns",
            "vs_ns_per_particle_step", "vs_median_ns", "ratio", "median_ratio"]
 PASSES = ["sort", "p2g", "grid", "g2p", "material"]
+WEIGHTS_KEYS = ["case", "kernel", "precision", "threads", "isa", "weights", "particles", "stored_bytes_per_particle",
+                "traffic_ns", "ns_per_particle_step", "median_ns", "ratio", "passes"]
 
 # Milliseconds; the built-in cases have a million particles.
 SHORT = ["--rounds", "1", "--steps", "2"]
@@ -128,6 +130,50 @@ class Output(BenchTest):
         (line,) = self.json_lines(self.snow, *SHORT, "--threads", "1", "--set", "simulation.path=plain")
         self.assertEqual(line["isa"], "plain")
         self.assertEqual(list(line), [key for key in KEYS if key not in OF_CEILINGS])
+
+
+class Weights(BenchTest):
+    WAYS = ["recomputed", "recomputed by node", "stored by axis", "stored by node"]
+
+    def test_each_kernel_and_precision_has_a_line_for_each_way_of_having_weights(self):
+        lines = self.json_lines("weights", "--particles", 500, "--rounds", 2)
+        self.assertEqual([(line["kernel"], line["precision"], line["weights"]) for line in lines],
+                         [(kernel, precision, way) for kernel in ("quadratic", "linear")
+                          for precision in ("float", "double") for way in self.WAYS])
+        for line in lines:
+            stored = line["weights"].startswith("stored")
+            self.assertEqual(list(line), [key for key in WEIGHTS_KEYS if stored or key != "traffic_ns"])
+            self.assertEqual(list(line["passes"]), ["weights", "p2g", "g2p"] if stored else ["p2g", "g2p"])
+            self.assertEqual(line["particles"], 512, "whole cells, eight in each")
+            self.assertAlmostEqual(sum(line["passes"].values()), line["ns_per_particle_step"])
+            self.assertLessEqual(line["ns_per_particle_step"], line["median_ns"])
+        for i, line in enumerate(lines):
+            first = lines[i - i % len(self.WAYS)]
+            self.assertAlmostEqual(line["ratio"] * first["ns_per_particle_step"], line["ns_per_particle_step"])
+
+    def test_what_is_stored_is_a_weight_and_a_gradient_for_every_node_or_a_weight_and_a_slope_for_every_node_of_an_axis(
+            self):
+        for line in self.json_lines("weights", "--particles", 8, "--rounds", 1):
+            nodes = {"quadratic": 3, "linear": 2}[line["kernel"]]
+            size = {"float": 4, "double": 8}[line["precision"]]
+            # Beside them where the nodes are, and by axis where the particle is between them.
+            numbers = {"stored by node": nodes**3 * 4, "stored by axis": 3 * nodes * 2 + 3}.get(line["weights"])
+            expected = 0 if numbers is None else numbers * size + size
+            self.assertEqual(line["stored_bytes_per_particle"], expected, line)
+
+    def test_csv_has_the_same_rows(self):
+        done = self.firn("bench", "weights", "--particles", 8, "--rounds", 1)
+        self.assertEqual(done.stderr, "")
+        rows = list(csv.DictReader(done.stdout.splitlines(), strict=True))
+        self.assertEqual(list(rows[0]), WEIGHTS_KEYS[:-1] + ["passes.weights", "passes.p2g", "passes.g2p"])
+        self.assertEqual([row["weights"] for row in rows], 4 * self.WAYS)
+
+    def test_options_and_names_of_scenes_are_refused_not_ignored(self):
+        for arguments in (["elastic", "weights"], ["--threads", "2", "weights"], ["--json", "weights"],
+                          ["weights", "--steps", "2"], ["weights", "--particles", "0"], ["weights", "--rounds", "0"]):
+            done = self.firn("bench", *arguments, code=2)
+            self.assertEqual(done.stdout, "")
+            self.assertNotEqual(done.stderr, "")
 
 
 class Builds(BenchTest):

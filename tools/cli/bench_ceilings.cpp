@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "engine/base/check.h"
+#include "tools/cli/read_memory.h"
 
 namespace firn {
 namespace {
@@ -19,7 +20,6 @@ double seconds_since(Clock::time_point start) {
 
 // Larger than any cache.
 constexpr std::size_t kArrayBytes = std::size_t{1} << 29;
-constexpr std::size_t kLine = 8;  // numbers of a cache line
 
 // Long enough for the clock and the start of threads not to matter, short beside a case.
 constexpr double kFmaSeconds = 0.02;
@@ -47,23 +47,15 @@ double fma_rate(const BenchRun& run) {
   return std::accumulate(gflops.begin(), gflops.end(), 0.0);
 }
 
-// One sum a place in the cache line: additions that do not wait for each other.
-std::uint64_t sum_of(std::span<const std::uint64_t> part) {
-  std::uint64_t sums[kLine] = {};
-  for (std::size_t i = 0; i < part.size(); i += kLine)
-    for (std::size_t k = 0; k < kLine; ++k) sums[k] += part[i + k];
-  return std::accumulate(sums, sums + kLine, std::uint64_t{0});
-}
-
 double read_rate(std::span<const std::uint64_t> array, int threads) {
   const auto count = static_cast<std::size_t>(threads);
-  const std::size_t lines = array.size() / kLine;
+  const std::size_t lines = array.size() / kLineNumbers;
   std::vector<std::uint64_t> sums(count);
   const Clock::time_point start = Clock::now();
   on_threads(threads, [&](int t) {
     const auto part = static_cast<std::size_t>(t);
     const std::size_t first = lines * part / count, last = lines * (part + 1) / count;
-    sums[part] = sum_of(array.subspan(first * kLine, (last - first) * kLine));
+    sums[part] = sum_of(array.subspan(first * kLineNumbers, (last - first) * kLineNumbers));
   });
   const double seconds = seconds_since(start);
   // The array holds ones: every number was read once.

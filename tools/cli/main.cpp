@@ -11,6 +11,7 @@
 #include "engine/base/nearest_name.h"
 #include "engine/output/posix_file.h"
 #include "tools/cli/bench.h"
+#include "tools/cli/bench_weights.h"
 #include "tools/cli/element.h"
 #include "tools/cli/materials.h"
 #include "tools/cli/memory.h"
@@ -76,6 +77,24 @@ void add_plan(CLI::App& app, Action& action) {
       [=, &action] { action = [=] { return firn::run_plan(*scene, *overrides, *json, std::cout); }; });
 }
 
+/// `bench` has its options.
+void add_bench_weights(CLI::App& bench, Action& action) {
+  auto options = std::make_shared<firn::BenchWeightsOptions>();
+  CLI::App* c = add(bench, "weights",
+                    "Measure what weights cost: computed where they are used, stored by axis, stored by node",
+                    "firn bench weights --rounds 10");
+  // They are of scenes: without this they would be accepted and ignored.
+  for (CLI::Option* option : bench.get_options())
+    if (option != bench.get_help_ptr()) c->excludes(option);
+  c->add_option("--particles", options->particles, "About so many, eight in a cell [1000000]")
+      ->check(CLI::Range(1, 100000000));
+  c->add_option("--rounds", options->rounds,
+                "Measure everything so many times, in turns; the best counts [5]")
+      ->check(CLI::Range(1, 1000));
+  c->add_flag("--json", options->json, "A line of JSON per measurement instead of CSV");
+  c->callback([=, &action] { action = [=] { return firn::run_bench_weights(*options, std::cout); }; });
+}
+
 void add_bench(CLI::App& app, Action& action) {
   auto options = std::make_shared<firn::BenchOptions>();
   CLI::App* c =
@@ -102,7 +121,11 @@ void add_bench(CLI::App& app, Action& action) {
   c->add_option("--vs", options->vs, "Compare with another build of firn: both take turns as child processes")
       ->type_name("BINARY");
   c->add_flag("--json", options->json, "A line of JSON per measurement instead of CSV");
-  c->callback([=, &action] { action = [=] { return firn::run_bench(*options, std::cout); }; });
+  add_bench_weights(*c, action);
+  c->callback([=, &action] {
+    // Called after those of what stands below it.
+    if (c->get_subcommands().empty()) action = [=] { return firn::run_bench(*options, std::cout); };
+  });
 }
 
 void add_study(CLI::App& app, Action& action) {
