@@ -111,6 +111,14 @@ std::string other_materials(TomlWriter::Explained& explained, const ModelInfo& s
     out += disabled(TomlWriter::table(explained, path, "[" + path + "]", material(name, model)));
     out += disabled("\n" + TomlWriter::table(explained, "bodies", "[[bodies]]", cube));
   }
+  out +=
+      "\n# In place of a model, a preset of those that 'firn materials' lists; its parameters may be set "
+      "otherwise.\n";
+  const Vec3 corner(-1.75 + 0.5 * (count % 7), 1 + 0.5 * (count / 7), -0.125);
+  out += disabled(
+      fmt::format("[materials.dune]\n{} = \"dry_sand\"\ndensity = 1900\n\n", kPresetKey) +
+      TomlWriter::table(explained, "bodies", "[[bodies]]",
+                        body("dune", "dune", shape(BoxDescription{corner, corner + Vec3::Constant(0.25)}))));
   return out;
 }
 

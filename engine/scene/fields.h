@@ -107,6 +107,9 @@ void fields(V& v, BodyForceDescription& d) {
       d.acceleration, kForceNames);
 }
 
+/// In place of a material's model: a preset, which has one.
+inline constexpr std::string_view kPresetKey = "preset";
+
 template <class V>
 void fields(V& v, MaterialDescription& d) {
   v.model({"model", Need::required, "one of those that 'firn materials' lists"}, d);

@@ -1,9 +1,12 @@
 #include "engine/scene/schema.h"
 
+#include <algorithm>
+
 #include "engine/scene/attributes.h"
 #include "engine/scene/schema_writer.h"
 #include "engine/scene/shape_types.h"
 #include "materials/model_info.h"
+#include "materials/presets.h"
 
 namespace firn {
 
@@ -20,15 +23,24 @@ void SchemaWriter::model(const Key& key, const MaterialDescription&) {
     SchemaWriter& branch = branches_.emplace_back();
     branch.add({key.name, key.need, model.title}, {{"const", model.name}});
     for (const Parameter& p : model.parameters) {
-      branch.parameter(p);
+      branch.parameter(p, p.default_value);
+    }
+  }
+  for (const Preset& preset : presets()) {
+    SchemaWriter& branch = branches_.emplace_back();
+    branch.add({kPresetKey, Need::required, preset.look}, {{"const", preset.name}});
+    for (const Parameter& p : find_model(preset.model)->parameters) {
+      const auto found = std::find_if(preset.values.begin(), preset.values.end(),
+                                      [&](const auto& value) { return value.first == p.name; });
+      branch.parameter(p, found == preset.values.end() ? p.default_value : found->second);
     }
   }
 }
 
-void SchemaWriter::parameter(const Parameter& p) {
-  const Key key = {p.name, p.required() ? Need::required : Need::optional, p.meaning, p.unit};
-  if (p.choices.empty()) return real(key, p.default_value, Range::of(p));
-  const auto chosen = static_cast<std::size_t>(p.default_value);
+void SchemaWriter::parameter(const Parameter& p, double value) {
+  const Key key = {p.name, std::isnan(value) ? Need::required : Need::optional, p.meaning, p.unit};
+  if (p.choices.empty()) return real(key, value, Range::of(p));
+  const auto chosen = static_cast<std::size_t>(value);
   if (p.is_switch()) return add_value(key, {{"type", "boolean"}}, chosen == 1);
   add_value(key, {{"enum", p.choices}}, std::string(p.choices[chosen]));
 }

@@ -92,7 +92,7 @@ class SchemaWriter {
   }
 
  private:
-  void parameter(const Parameter& p);
+  void parameter(const Parameter& p, double value);
   // A shape can hold shapes, so that its schema has to go by a name.
   static Json shape_reference() { return {{"$ref", "#/$defs/shape"}}; }
 

@@ -12,6 +12,8 @@
 
 #include "engine/scene/fields.h"
 #include "engine/scene/report.h"
+#include "materials/model_info.h"
+#include "materials/presets.h"
 
 namespace firn {
 
@@ -80,8 +82,11 @@ class TableReader {
   std::optional<Name> read_text(const Key& key, std::string_view allowed);
   std::optional<Name> read_file(const Key& key);
   /// Index of the word written, one of `words`.
-  /// Of a model; empty where the scene leaves it out, or where it is refused.
-  std::optional<double> read_parameter(const Parameter& p);
+  /// Null where there is none, which is reported.
+  const ModelInfo* read_model(const Key& key);
+  const Preset* read_preset(const Key& model_key);
+  /// Of a model; empty where the scene leaves it out, as it may if there is a value already, or is refused.
+  std::optional<double> read_parameter(const Parameter& p, bool has_value);
   std::optional<std::size_t> read_word(const Key& key, std::span<const std::string_view> words);
   const toml::table* read_table(const Key& key);
   const toml::array* read_array(const Key& key, std::string_view allowed, std::size_t least);

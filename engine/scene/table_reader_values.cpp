@@ -6,6 +6,7 @@
 #include "engine/scene/shape_types.h"
 #include "engine/scene/table_reader.h"
 #include "materials/model_info.h"
+#include "materials/presets.h"
 
 namespace firn {
 
@@ -111,19 +112,42 @@ void TableReader::learn_every_model() {
 }
 
 void TableReader::model(const Key& key, MaterialDescription& out) {
-  std::vector<std::string_view> names;
-  for (const ModelInfo& model : models()) names.push_back(model.name);
-  const auto index = read_word(key, names);
-  if (!index) return learn_every_model();
-  const ModelInfo& model = models()[*index];
-  out.model = {std::string(model.name), context_.report.mark(table_.get(key.name)->source())};
-  for (const Parameter& p : model.parameters)
-    if (const std::optional<double> value = read_parameter(p))
+  learn(key.name);
+  learn(kPresetKey);
+  const bool named = table_.contains(kPresetKey);
+  const Preset* preset = named ? read_preset(key) : nullptr;
+  const ModelInfo* model = preset ? find_model(preset->model) : named ? nullptr : read_model(key);
+  if (!model) return learn_every_model();
+  out.model = {std::string(model->name),
+               context_.report.mark(table_.get(preset ? kPresetKey : key.name)->source())};
+  if (preset)
+    for (const auto& [parameter, value] : preset->values)
+      out.parameters[std::string(parameter)] = {value, out.model.mark};
+  for (const Parameter& p : model->parameters)
+    if (const std::optional<double> value = read_parameter(p, preset != nullptr))
       out.parameters[std::string(p.name)] = {*value, context_.report.mark(table_.get(p.name)->source())};
 }
 
-std::optional<double> TableReader::read_parameter(const Parameter& p) {
-  const Key key = {p.name, p.required() ? Need::required : Need::optional, p.meaning, p.unit};
+const ModelInfo* TableReader::read_model(const Key& key) {
+  std::vector<std::string_view> names;
+  for (const ModelInfo& model : models()) names.push_back(model.name);
+  const auto index = read_word(key, names);
+  return index ? &models()[*index] : nullptr;
+}
+
+const Preset* TableReader::read_preset(const Key& model_key) {
+  std::vector<std::string_view> names;
+  for (const Preset& p : presets()) names.push_back(p.name);
+  const auto index = read_word({kPresetKey, Need::optional, "", "-"}, names);
+  if (const toml::node* both = table_.get(model_key.name))
+    refuse(model_key.name, *both, "",
+           fmt::format("stands beside '{}', which has a model; leave one out", kPresetKey));
+  return index ? &presets()[*index] : nullptr;
+}
+
+std::optional<double> TableReader::read_parameter(const Parameter& p, bool has_value) {
+  const bool needed = p.required() && !has_value;
+  const Key key = {p.name, needed ? Need::required : Need::optional, p.meaning, p.unit};
   if (p.is_switch()) {
     const toml::node* node = find(key, p.range());
     if (!node) return std::nullopt;

@@ -9,6 +9,7 @@
 #include "engine/base/error.h"
 #include "engine/base/nearest_name.h"
 #include "materials/model_info.h"
+#include "materials/presets.h"
 
 namespace firn {
 namespace {
@@ -57,20 +58,37 @@ void print_model(const ModelInfo& m, std::ostream& out) {
   print_table(rows, out);
 }
 
+void print_preset(const Preset& p, std::ostream& out) {
+  out << fmt::format("{}\n  {}\n", p.name, p.look);
+  std::vector<std::string> values;
+  for (const auto& [name, value] : p.values) values.push_back(fmt::format("{} = {:g}", name, value));
+  print_table({{"model", std::string(p.model)},
+               {"source", std::string(p.source)},
+               {"numbers", fmt::format("{}", fmt::join(values, ", "))}},
+              out);
+}
+
 }  // namespace
 
 int run_materials(const std::string& name, std::ostream& out) {
   if (!name.empty()) {
     const ModelInfo* m = find_model(name);
+    const Preset* p = find_preset(name);
     std::vector<std::string_view> known;
     for (const ModelInfo& other : models()) known.push_back(other.name);
-    if (!m) throw Error(ExitCode::input, unknown_name("model", name, known));
-    print_model(*m, out);
+    for (const Preset& other : presets()) known.push_back(other.name);
+    if (!m && !p) throw Error(ExitCode::input, unknown_name("model or preset", name, known));
+    m ? print_model(*m, out) : print_preset(*p, out);
     return static_cast<int>(ExitCode::ok);
   }
   for (const ModelInfo& m : models()) {
-    if (&m != &models().front()) out << '\n';
     print_model(m, out);
+    out << '\n';
+  }
+  out << "Presets, which a scene's material may name in place of a model:\n";
+  for (const Preset& p : presets()) {
+    out << '\n';
+    print_preset(p, out);
   }
   return static_cast<int>(ExitCode::ok);
 }
@@ -85,6 +103,9 @@ int run_materials_markdown(std::ostream& out) {
     out << fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", m.name, m.title, m.source, parts_of(m),
                        columns_of(m), fmt::join(parameters, ", "));
   }
+  out << "\n| preset | look | model | source of its numbers |\n|---|---|---|---|\n";
+  for (const Preset& p : presets())
+    out << fmt::format("| `{}` | {} | `{}` | {} |\n", p.name, p.look, p.model, p.source);
   return static_cast<int>(ExitCode::ok);
 }
 

@@ -6,11 +6,11 @@
 
 namespace firn {
 
-/// All models, or the one called `name` in detail. Throws Error{ExitCode::input} when there is none of that
+/// All models and presets, or the one called `name`. Throws Error{ExitCode::input} when there is none of that
 /// name.
 int run_materials(const std::string& name, std::ostream& out);
 
-/// The README's table of models.
+/// The README's tables of models and presets.
 int run_materials_markdown(std::ostream& out);
 
 }  // namespace firn

@@ -8,6 +8,7 @@
 #include "engine/scene/example.h"
 #include "engine/scene/shape_types.h"
 #include "materials/model_info.h"
+#include "materials/presets.h"
 #include "tests/engine/scene/scene_text_support.h"
 
 namespace firn::test {
@@ -45,10 +46,10 @@ TEST_CASE("the example scene is read as it stands") {
   CHECK(d.gravity == Vec3(0, -9.81, 0));
 }
 
-TEST_CASE("the example scene is read with its alternatives made live, one body a model") {
+TEST_CASE("the example scene is read with its alternatives made live, one body a model and a preset") {
   const SceneDescription d = read(with_disabled_blocks());
-  CHECK(d.materials.size() == models().size());
-  CHECK(d.bodies.size() == 2 + models().size() - 1 + 3);
+  CHECK(d.materials.size() == models().size() + 1);
+  CHECK(d.bodies.size() == 2 + models().size() + 3);
 }
 
 TEST_CASE("the example scene shows every key that the schema has") {
@@ -76,8 +77,8 @@ TEST_CASE("the schema has a branch for every model with its parameters, limits a
   const auto schema = nlohmann::json::parse(scene_schema());
   CHECK(schema["$schema"] == "https://json-schema.org/draft/2020-12/schema");
   const auto& branches = schema["properties"]["materials"]["additionalProperties"]["oneOf"];
-  REQUIRE(branches.size() == models().size());
-  for (std::size_t i = 0; i < branches.size(); ++i) {
+  REQUIRE(branches.size() == models().size() + presets().size());
+  for (std::size_t i = 0; i < models().size(); ++i) {
     const ModelInfo& model = models()[i];
     const auto& properties = branches[i]["properties"];
     CHECK(properties["model"]["const"] == model.name);

@@ -36,10 +36,13 @@ TEST_CASE("firn materials names the nearest model", "[materials]") {
   } catch (const Error& e) {
     CHECK(e.code() == ExitCode::input);
     CHECK(std::string(e.what()) ==
-          "unknown model 'stvk_henky'; did you mean 'stvk_hencky'? known: neo_hookean, fixed_corotated, "
-          "stvk_hencky, "
-          "snow_stomakhin_2013, sand_klar_2016, sand_perzyna, von_mises, von_mises_voce, "
+          "unknown model or preset 'stvk_henky'; did you mean 'stvk_hencky'? known: neo_hookean, "
+          "fixed_corotated, "
+          "stvk_hencky, snow_stomakhin_2013, sand_klar_2016, sand_perzyna, von_mises, von_mises_voce, "
           "johnson_cook_1983, von_mises_perzyna, nacc_wolper_2019, herschel_bulkley_yue_2015, "
-          "flow_bargteil_2007, rankine, fluid");
+          "flow_bargteil_2007, "
+          "rankine, fluid, snow_powder, snow_wet, snow_packed, ice, dry_sand, wet_sand, mud, clay, foam, "
+          "honey, "
+          "water, rubber, jello, copper");
   }
 }
