@@ -24,6 +24,13 @@ constexpr Parameter poissons_ratio_parameter(double default_value = kRequired) {
 /// What a return map in shear may keep.
 inline constexpr std::string_view kVolumeChoices[] = {"preserve", "published"};
 
+/// What makes a model's flow a matter of time.
+template <class Model>
+constexpr std::string_view rate_name() {
+  if constexpr (requires { Model::Flow::rate_name; }) return Model::Flow::rate_name;
+  return "none";
+}
+
 /// The description of `Model`, from what its type says and the words given here.
 template <class Model>
 ModelInfo describe(std::string_view title, std::string_view source) {
@@ -33,6 +40,7 @@ ModelInfo describe(std::string_view title, std::string_view source) {
           Model::Energy::name,
           Model::yield_name,
           Model::hardening_name,
+          rate_name<Model>(),
           Model::decomposition,
           Model::template Point<double, 3>::columns,
           Model::parameters};

@@ -12,6 +12,9 @@
 // Stretches: a trial state may be inverted or flat. A law in the logarithms of s, or in F F^T, takes it for
 // its mirror image; one too flat for a matrix of the number type to hold, so that its determinant has a sign,
 // is taken for as flat as one can be. Both are counted in `capped`, and det F_E > 0 afterwards.
+//
+// F_P: what flows for long stretches without bound, and no stress here depends on F_P. Before its determinant
+// could overflow it stands still, which is counted too.
 #pragma once
 
 #include "engine/math/svd.h"
@@ -56,9 +59,9 @@ struct Stretches {
 
 /// Moves the point from stretches f.s to `s`, F_E F_P unchanged: F_E += U (s - f.s) V^T, F_P += V (f.s/s - 1)
 /// V^T F_P. By increments, so that round-off does not drift; but where a stretch shrinks a lot the difference
-/// would keep the round-off of the long one, and F_E is built anew.
+/// would keep the round-off of the long one, and F_E is built anew. Returns where F_P can grow no more.
 template <class L, int D, template <class> class History>
-void move_to(PlasticPoint<L, D, History>& p, const Svd<L, D>& f, const Vector<L, D>& s) {
+LaneMask<L> move_to(PlasticPoint<L, D, History>& p, const Svd<L, D>& f, const Vector<L, D>& s) {
   Vector<L, D> plastic;
   LaneMask<L> far = s[0] < L(0);
   for (int k = 0; k < D; ++k) {
@@ -68,7 +71,10 @@ void move_to(PlasticPoint<L, D, History>& p, const Svd<L, D>& f, const Vector<L,
   const Matrix<L, D> trial = p.F_E;
   p.F_E = trial + compose(f.U, s - f.s, f.V);
   if (any(far)) p.F_E = chosen(far, compose(f.U, s, f.V), p.F_E);
-  p.F_P = p.F_P + compose(f.V, plastic, f.V) * p.F_P;
+  const Matrix<L, D> F_P = p.F_P + compose(f.V, plastic, f.V) * p.F_P;
+  const LaneMask<L> full = !(frobenius2(F_P) < L(sizeof(LaneReal<L>) == 4 ? 1e22 : 1e200));
+  p.F_P = any(full) ? chosen(full, p.F_P, F_P) : F_P;
+  return full;
 }
 
 template <class EnergyPart, class FlowPart>
@@ -99,14 +105,15 @@ struct FlowPlastic {
     const Vector<L, D> s = any(dt > L(0)) ? flow.project(trial.s, m, p.history, dt) : trial.s;
     Response<L, D> out;
     out.dissipated = L(0);
+    LaneMask<L> capped = trial.mended;
     // Most steps of most points are elastic; what follows would change no bit of them.
     if (any(differs(s, f.s))) {
-      move_to(p, f, s);
+      capped = capped | move_to(p, f, s);
       out.dissipated = select(differs(s, trial.s), Energy::density(trial.s, m) - Energy::density(s, m), L(0));
     }
     out.tau = compose(f.U, Energy::kirchhoff(s, m), f.U);
     out.wave_modulus = Energy::wave_modulus(s, m);
-    out.capped = select(trial.mended, L(1), L(0));
+    out.capped = select(capped, L(1), L(0));
     return out;
   }
 

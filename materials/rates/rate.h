@@ -9,7 +9,7 @@
 namespace firn {
 
 struct RateIndependent {
-  static constexpr std::string_view name = "";
+  static constexpr std::string_view name = "none";
   static constexpr bool linear = true, instant = true;
 
   /// What a rate of plastic strain adds to the stress: Pa s. Perzyna's eta.

@@ -25,7 +25,7 @@ namespace firn {
 
 struct CohesiveCamClay {
   static constexpr std::string_view name = "cohesive Cam-clay", hardening_name = "plastic volume",
-                                    rate_name = "";
+                                    rate_name = "none";
   template <class Energy>
   static constexpr bool valid_with = std::same_as<Energy, IsochoricNeoHookeanEnergy>;
   template <class L>

@@ -18,7 +18,7 @@ namespace firn {
 
 struct Rankine {
   static constexpr std::string_view name = "Rankine", hardening_name = "exponential softening",
-                                    rate_name = "";
+                                    rate_name = "none";
   template <class Energy>
   static constexpr bool valid_with = std::same_as<Energy, StvkHenckyEnergy>;
   template <class L>

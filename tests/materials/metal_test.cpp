@@ -89,6 +89,20 @@ TEMPLATE_TEST_CASE("a nonlinear hardening's step ends on its curve", "[materials
     }
 }
 
+TEST_CASE("a metal drawn out without end keeps finite numbers, and that is counted", "[materials]") {
+  const auto metal = make_model<VonMisesLinear>(kSoft);
+  auto p = metal.at_rest<float, 3>();
+  float capped = 0;
+  for (int n = 0; n < 400; ++n) {
+    p.F_E = Matrix<float, 3>::diagonal({1.5F, 1 / 1.5F, 1.0F}) * p.F_E;
+    const auto r = metal.update(p, 1e-3F);
+    REQUIRE(std::isfinite(largest_entry(r.tau)));
+    capped += r.capped;
+  }
+  CHECK(std::isfinite(determinant(p.F_P)));
+  CHECK(capped > 300);
+}
+
 TEST_CASE("Voce's hardening saturates", "[materials]") {
   ParameterValues values = kSoft;
   values.insert({{"saturation", 5e4}, {"exponent", 16}});

@@ -24,7 +24,7 @@ struct Case {
   }();
   static constexpr bool lagged = grains || std::is_same_v<M, NaccWolper2019>;
   static constexpr bool viscous = [] {
-    if constexpr (requires { M::Flow::rate_name; }) return !M::Flow::rate_name.empty();
+    if constexpr (requires { M::Flow::rate_name; }) return M::Flow::rate_name != "none";
     return false;
   }();
 };

@@ -29,6 +29,7 @@ std::string parts_of(const ModelInfo& m) {
   std::string out{m.energy};
   if (m.yield != "none") out += fmt::format(" + {}", m.yield);
   if (m.hardening != "none") out += fmt::format(" + {} hardening", m.hardening);
+  if (m.rate != "none") out += fmt::format(" + {} rate", m.rate);
   return out;
 }
 
