@@ -89,7 +89,8 @@ class Frame(InfoTest):
 
     def test_an_attribute_that_is_not_there_is_named_with_the_nearest(self):
         message = self.refused(self.last, "--csv", "Jq")
-        for words in (frame_name(3), "unknown attribute 'Jq'", "did you mean 'Jp'?", "P, id, v, pscale, F_E, Jp, material"):
+        for words in (frame_name(3), "unknown attribute 'Jq'", "did you mean 'Jp'?",
+                      "known: P, id, v, pscale, F_E, Jp, material"):
             self.assertIn(words, message)
 
     def test_files_that_are_no_frames_are_told_as_such(self):
