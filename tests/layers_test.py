@@ -36,6 +36,7 @@ HEAVY_ALLOWED = [
     "engine/shapes/*.cpp",
     "engine/shapes/level_set_shape.h",
     "engine/output/point_cache.cpp",
+    "engine/output/point_cache_reader.cpp",
     "tests/engine/shapes/*.cpp",
     "tests/engine/output/read_cache.cpp",
 ]

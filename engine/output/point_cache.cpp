@@ -1,4 +1,5 @@
-// The only file of the output layer that includes OpenVDB: half a minute to compile.
+// With point_cache_reader.cpp the only file of the output layer that includes OpenVDB: half a minute to
+// compile.
 #include "engine/output/point_cache.h"
 
 #include <cmath>

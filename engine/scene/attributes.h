@@ -12,12 +12,13 @@ struct Attribute {
   std::string_view meaning;
 };
 
-inline constexpr std::array<Attribute, 9> kAttributes = {{
+inline constexpr std::array<Attribute, 10> kAttributes = {{
     {"F_E", 9, "elastic deformation gradient"},
     {"F_P", 9, "plastic deformation gradient"},
     {"Jp", 1, "det F_P: volume change that stays when the load goes"},
     {"density", 1, "mass over present volume, kg/m^3"},
     {"stress", 9, "Cauchy stress, Pa, positive in tension"},
+    {"pressure", 1, "mean of the Cauchy stress along the scene's axes, Pa, positive in compression"},
     {"material", 1, "number of the material, from 0 in the order of the scene"},
     {"mass", 1, "kg"},
     {"volume", 1, "present volume, m^3"},

@@ -93,8 +93,9 @@ void plan_batches(const SceneDescription& scene, Plan& plan) {
     const double density = std::visit([](const auto& m) { return m.density; }, law);
     ColumnSet columns = transfer_columns(scene.simulation.transfer) | model.columns;
     // The vectorised path uses the stress where it is computed; a column is for those who ask for one.
-    const bool stress_asked = std::any_of(scene.output.attributes.begin(), scene.output.attributes.end(),
-                                          [](const Name& a) { return a.text == "stress"; });
+    const bool stress_asked =
+        std::any_of(scene.output.attributes.begin(), scene.output.attributes.end(),
+                    [](const Name& a) { return a.text == "stress" || a.text == "pressure"; });
     if (plan.path.isa && !stress_asked) columns = columns.without(Column::stress);
     if (scene.names_forces()) columns = columns | ColumnSet{Column::force};
     plan.batches.push_back({material.name, std::string(model.name), density, law, columns});

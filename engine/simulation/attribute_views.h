@@ -99,6 +99,11 @@ Writer<Real, D> writer(std::string_view name) {
       put_matrix<D>(static_cast<Real>(1 / det_F(t, p)) * t.template view<Column::stress>().load(p), 0.0F,
                     out);
     };
+  if (name == "pressure")  // of D axes: the third of a plane scene carries no stress that it knows of
+    return [](const Table& t, std::size_t p, std::size_t, float* out) {
+      *out = static_cast<float>(-static_cast<double>(trace(t.template view<Column::stress>().load(p))) /
+                                (D * det_F(t, p)));
+    };
   if (name == "density")
     return [](const Table& t, std::size_t p, std::size_t, float* out) {
       *out =

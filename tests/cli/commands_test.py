@@ -45,7 +45,7 @@ class Commands(FirnTest):
     def test_every_command_has_help_with_an_example(self):
         overview = self.firn("--help").stdout
         commands = [line.split()[0] for line in overview.split("Subcommands:\n")[1].splitlines() if line.strip()]
-        for command in ("run", "plan", "element", "materials", "schema"):
+        for command in ("run", "plan", "element", "materials", "info", "schema"):
             self.assertIn(command, commands)
         for command in commands:
             text = self.firn(command, "--help").stdout

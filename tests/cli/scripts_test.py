@@ -6,13 +6,11 @@ import importlib.util
 import json
 import math
 import os
-import struct
 import subprocess
 import sys
 import xml.etree.ElementTree
-import zlib
 
-from firn_cli import BLOCK, SOURCE, FirnTest, diagnostics, frame_name, main, programs
+from firn_cli import BLOCK, SOURCE, FirnTest, diagnostics, main, programs
 
 SCRIPTS = os.path.join(SOURCE, "tools", "scripts")
 SVG = "{http://www.w3.org/2000/svg}"
@@ -177,31 +175,7 @@ class Plots(ScriptTest):
             # Differences of a parabola are exact in the middle.
             self.assertAlmostEqual(stress, 7 * strain)
 
-    def test_dots_are_drawn_where_the_particles_are(self):
-        flat = (BLOCK.replace("cell_size", "dimension = 2\ncell_size").replace("0.4, 0.4, 0.4", "0.4, 0.4, 0")
-                + 'sampling = "lattice"\nparticles_per_cell = 4\n')
-        self.firn("run", self.write("scene.toml", flat), "--out", self.path("run"))
-        first, last = (f"run/{frame_name(number)}" for number in (1, len(diagnostics(self.path("run"))[1])))
-        self.plot("dots", first, last, "--out", "dots.png", "--width", "240")
-        with open(self.path("dots.png"), "rb") as file:
-            picture = file.read()
-        # 0.4 m of body that drifts 0.2 m, and a cell of 0.1 m around all: 240 pixels are 0.65 to 0.66 m wide, for its
-        # outermost particles stand 25 mm inside.
-        width, height = struct.unpack(">II", picture[16:24])
-        self.assertEqual(width, 240 + 12 + 240)
-        self.assertAlmostEqual(height, 240 * 0.45 / 0.65, delta=2)
-        at = picture.index(b"IDAT")
-        size, = struct.unpack(">I", picture[at - 4:at])
-        rows = zlib.decompress(picture[at + 4:at + 4 + size])
-        rows = [rows[k * (width + 1) + 1:(k + 1) * (width + 1)] for k in range(height)]
-        # Eight by eight dots in each panel; the left one's body is left in it, the right one's right.
-        dark = [max(column) > 0 for column in zip(*rows)]
-        for panel, dots in ((dark[:240], range(0, 168)), (dark[252:], range(72, 240))):
-            self.assertEqual(sum(a < b for a, b in zip(panel, panel[1:])), 8)
-            self.assertTrue(all(k in dots for k, drawn in enumerate(panel) if drawn))
-
     def test_mistakes_are_told(self):
-        self.assertIn("does not exist", self.plot("dots", "nothing.vdb", "--out", "a.png", code=3).stderr)
         self.assertIn("NAME=FOLDER", self.plot("energy_plot", "run", code=2).stderr)
         self.assertIn("no diagnostics.csv", self.plot("energy_plot", "a=nothing", code=3).stderr)
         self.assertIn("no run.json", self.plot("stress_strain", "nothing", code=3).stderr)

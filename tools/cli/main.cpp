@@ -13,6 +13,7 @@
 #include "tools/cli/bench.h"
 #include "tools/cli/bench_weights.h"
 #include "tools/cli/element.h"
+#include "tools/cli/info.h"
 #include "tools/cli/materials.h"
 #include "tools/cli/memory.h"
 #include "tools/cli/plan.h"
@@ -192,6 +193,21 @@ void add_materials(CLI::App& app, Action& action) {
   });
 }
 
+void add_info(CLI::App& app, Action& action) {
+  auto options = std::make_shared<firn::InfoOptions>();
+  CLI::App* c = add(app, "info", "What a frame or the folder of a run holds",
+                    "firn info out/snowball/particles.0012.vdb --csv v,Jp > frame_12.csv");
+  c->add_option("path", options->path, "A frame, as particles.0012.vdb, or the folder of a run")->required();
+  CLI::Option* json = c->add_flag("--json", options->json, "As JSON");
+  c->add_option("--csv", options->csv,
+                "A row a particle of a frame instead: its id, its place, and the attributes named")
+      ->type_name("NAME,...")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->excludes(json);
+  c->callback([=, &action] { action = [=] { return firn::run_info(*options, std::cout); }; });
+}
+
 void add_schema(CLI::App& app, Action& action) {
   auto example = std::make_shared<bool>(false);
   CLI::App* c =
@@ -219,6 +235,7 @@ int run(CLI::App& app, int argc, char** argv) {
   add_study_child(app, action);
   add_element(app, action);
   add_materials(app, action);
+  add_info(app, action);
   add_schema(app, action);
   if (argc > 1) check_command(app, argv[1]);
   try {
