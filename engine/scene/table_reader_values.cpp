@@ -123,7 +123,8 @@ void TableReader::model(const Key& key, MaterialDescription& out) {
 }
 
 std::optional<double> TableReader::read_parameter(const Parameter& p) {
-  const Key key = {p.name, p.required() ? Need::required : Need::optional, p.meaning, p.unit};
+  const bool needed = p.required() && (context_.needs_density || p.name != "density");
+  const Key key = {p.name, needed ? Need::required : Need::optional, p.meaning, p.unit};
   if (p.is_switch()) {
     const toml::node* node = find(key, p.range());
     if (!node) return std::nullopt;

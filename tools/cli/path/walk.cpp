@@ -1,0 +1,131 @@
+#include "tools/cli/path/walk.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "engine/base/error.h"
+#include "engine/scene/scene_text.h"
+#include "tools/cli/path/leg.h"
+#include "tools/cli/path/solve.h"
+
+namespace firn {
+namespace {
+
+constexpr double kAccuracy = 1e-8;  // of a driven stress, over the P-wave modulus
+
+class Walk {
+ public:
+  Walk(const PathDescription& path, const Specimen& specimen, const PathRow& row)
+      : path_(path), specimen_(specimen), row_(row), scale_(specimen.p_wave()), state_(specimen.at_rest()) {}
+
+  void run() {
+    row_(place_, state_);
+    for (place_.leg = 0; place_.leg < path_.legs.size(); ++place_.leg) run_leg();
+  }
+
+ private:
+  const LegDescription& leg() const { return path_.legs[place_.leg]; }
+
+  void run_leg() {
+    const bool early = leg().until_stress.has_value();
+    for (const Way& way : ways(leg(), state_, 1e-12 * scale_)) {
+      last_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(way.stresses.size()));
+      for (int k = 0; k < way.steps; ++k)
+        if (run_step(way, k)) return;
+    }
+    if (early)
+      fail(fmt::format("the stress ends at {:g} Pa and has not reached until_stress, {:g} Pa", driven(state_),
+                       *leg().until_stress));
+  }
+
+  /// True where the leg ends early.
+  bool run_step(const Way& way, int k) {
+    ++place_.step;
+    double part = 1;
+    Attempt end = attempt(way, k, part);
+    const bool last = leg().until_stress && passes(state_, end.state);
+    if (last) {
+      const auto missing = [&](double p) {
+        return (driven(p == 0 ? state_ : attempt(way, k, p).state) - *leg().until_stress) / scale_;
+      };
+      part = crossing(missing);
+      end = attempt(way, k, part);
+      check(std::abs(missing(part)), "the stress jumps over until_stress");
+    }
+    check(end.residual, "the stress on the faces cannot be what it should be");
+    place_.time += part * way.time / way.steps;
+    last_ = end.strains_found;
+    state_ = end.state;
+    row_(place_, state_);
+    return last;
+  }
+
+  struct Attempt {
+    SpecimenState state;
+    Eigen::VectorXd strains_found;
+    double residual;
+  };
+
+  /// The first `part` of step k of the way.
+  Attempt attempt(const Way& way, int k, double part) const {
+    const double share = part / way.steps;
+    Strains driven = state_.strains;
+    driven.log += share * way.strains.log;
+    driven.gamma += share * way.strains.gamma;
+    const auto state_with = [&](const Eigen::VectorXd& found) {
+      Strains strains = driven;
+      for (std::size_t g = 0; g < way.stresses.size(); ++g)
+        for (const int axis : way.stresses[g].axes) strains.log[axis] += found[static_cast<Eigen::Index>(g)];
+      return specimen_.strained(state_, strains, share * way.time);
+    };
+    const auto residual = [&](const Eigen::VectorXd& found) {
+      const SpecimenState state = state_with(found);
+      Eigen::VectorXd out(found.size());
+      for (std::size_t g = 0; g < way.stresses.size(); ++g) {
+        const DrivenStress& d = way.stresses[g];
+        const double wanted = d.from + (d.to - d.from) * (k + part) / way.steps;
+        out[static_cast<Eigen::Index>(g)] = (state.sigma(d.axes[0], d.axes[0]) - wanted) / scale_;
+      }
+      return out;
+    };
+    const Root root = solve(residual, part * last_);
+    return {state_with(root.x), root.x, root.residual};
+  }
+
+  double driven(const SpecimenState& state) const { return driven_stress(leg(), state); }
+
+  bool passes(const SpecimenState& before, const SpecimenState& after) const {
+    const double a = driven(before) - *leg().until_stress, b = driven(after) - *leg().until_stress;
+    return b == 0 || (a < 0) != (b < 0);
+  }
+
+  void check(double residual, std::string_view what) const {
+    if (residual <= kAccuracy) return;
+    fail(fmt::format(
+        "{}: {:.3g} Pa are left, allowed: {:.3g} Pa, 1e-8 of the P-wave modulus; smaller steps may help",
+        what, residual * scale_, kAccuracy * scale_));
+  }
+
+  [[noreturn]] void fail(const std::string& why) const {
+    const SourceMark& mark = leg().mark;
+    throw Error(ExitCode::numerics, fmt::format("{}:{}:{}: legs[{}]: step {}: {}", mark.file, mark.line,
+                                                mark.column, place_.leg, place_.step, why));
+  }
+
+  const PathDescription& path_;
+  const Specimen& specimen_;
+  const PathRow& row_;
+  double scale_;  // Pa
+  PathPlace place_;
+  SpecimenState state_;
+  Eigen::VectorXd last_;  // what the step before found
+};
+
+}  // namespace
+
+void walk(const PathDescription& path, const Specimen& specimen, const PathRow& row) {
+  Walk(path, specimen, row).run();
+}
+
+}  // namespace firn
