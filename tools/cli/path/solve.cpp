@@ -17,34 +17,38 @@ double size(const Eigen::VectorXd& r) {
   return r.allFinite() ? r.norm() : std::numeric_limits<double>::infinity();
 }
 
-Eigen::VectorXd newton_step(const Residual& f, const Eigen::VectorXd& x, const Eigen::VectorXd& r) {
+Eigen::MatrixXd numerical_slope(const Residual& f, const Eigen::VectorXd& x, const Eigen::VectorXd& r) {
   Eigen::MatrixXd slope(r.size(), x.size());
   for (Eigen::Index j = 0; j < x.size(); ++j) {
     Eigen::VectorXd probe = x;
     probe[j] += kProbe;
     slope.col(j) = (f(probe) - r) / kProbe;
   }
-  Eigen::VectorXd step = -slope.fullPivLu().solve(r);
-  // Where stress does not answer to strain, towards what an elastic point would do.
-  if (!step.allFinite() || step.isZero(0)) step = -r;
-  const double longest = step.cwiseAbs().maxCoeff();
-  return longest > kLongest ? Eigen::VectorXd(step * (kLongest / longest)) : step;
+  return slope;
 }
 
-Root newton(const Residual& f, Eigen::VectorXd x) {
-  constexpr int kSteps = 60, kHalvings = 30;
-  Eigen::VectorXd r = f(x);
-  for (int n = 0; n < kSteps && size(r) > kGoal; ++n) {
-    const Eigen::VectorXd step = newton_step(f, x, r);
-    double part = 1;
-    bool better = false;
-    for (int k = 0; k < kHalvings && !better; ++k, part /= 2) {
-      const Eigen::VectorXd next = x + part * step, r_next = f(next);
-      better = size(r_next) < (1 - 1e-4 * part) * size(r);
-      if (better) x = next, r = r_next;
-    }
-    if (!better) break;
+/// A part of Newton's step from x, where f is r; moves both. False where no part of it is better.
+bool advance(const Residual& f, const Eigen::MatrixXd& slope, Eigen::VectorXd& x, Eigen::VectorXd& r) {
+  constexpr int kHalvings = 30;
+  Eigen::VectorXd step = -slope.fullPivLu().solve(r);
+  if (!step.allFinite()) return false;
+  const double longest = step.cwiseAbs().maxCoeff();
+  if (longest > kLongest) step *= kLongest / longest;
+  double part = 1;
+  for (int k = 0; k < kHalvings; ++k, part /= 2) {
+    const Eigen::VectorXd next = x + part * step, r_next = f(next);
+    if (!(size(r_next) < (1 - 1e-4 * part) * size(r))) continue;
+    x = next, r = r_next;
+    return true;
   }
+  return false;
+}
+
+Root newton(const Residual& f, Eigen::VectorXd x, const Eigen::MatrixXd& elastic) {
+  constexpr int kSteps = 60;
+  Eigen::VectorXd r = f(x);
+  for (int n = 0; n < kSteps && size(r) > kGoal; ++n)
+    if (!advance(f, numerical_slope(f, x, r), x, r) && !advance(f, elastic, x, r)) break;
   return {x, size(r)};
 }
 
@@ -85,9 +89,9 @@ Root search(const Residual& residual, double x) {
 
 }  // namespace
 
-Root solve(const Residual& f, const Eigen::VectorXd& guess) {
+Root solve(const Residual& f, const Eigen::VectorXd& guess, const Eigen::MatrixXd& elastic) {
   if (guess.size() == 0) return {guess, 0};
-  Root root = newton(f, guess);
+  Root root = newton(f, guess, elastic);
   if (root.residual < kGoodEnough || guess.size() > 1) return root;
   const Root other = search(f, guess[0]);
   return other.residual < root.residual ? other : root;

@@ -81,8 +81,8 @@ double Specimen::energy(const SpecimenState& state) const {
                     material_);
 }
 
-double Specimen::p_wave() const {
-  return std::visit([](const auto& model) { return model.moduli.p_wave(); }, material_);
+Lame<double> Specimen::moduli() const {
+  return std::visit([](const auto& model) { return model.moduli; }, material_);
 }
 
 bool Specimen::plastic() const {

@@ -41,7 +41,7 @@ class Specimen {
   SpecimenState strained(const SpecimenState& from, const Strains& strains, double dt) const;
 
   double energy(const SpecimenState& state) const;  // J per m^3 at rest
-  double p_wave() const;                            // Pa, before any hardening
+  Lame<double> moduli() const;                      // Pa, before any hardening
   bool plastic() const;                             // it has an F_P
   std::vector<std::string> history_names() const;
 
