@@ -25,8 +25,8 @@ PathDescription read_path(const std::filesystem::path& file, std::span<const std
 
 std::string example_path() {
   return R"toml(# A strain path: lab tests of one specimen. Run it with firn element FILE --out FILE.csv.
-# Axis y is the specimen's axis, x and z its sides. Strains are logarithmic, positive in extension; pressures are
-# positive in compression, stresses in tension, both Cauchy's (force over present area).
+# Axis y is the specimen's axis, x and z its sides. Strains are logarithmic, positive in extension; pressures
+# are positive in compression, stresses in tension, both Cauchy's (force over present area).
 title = "Sand, consolidated and compressed"
 
 [material]                      # as in a scene; firn materials lists them. density may be left out
@@ -45,7 +45,7 @@ strain = -0.05                  # added over the leg; negative compresses
 time = 60                       # s; 1 if left out. Counts for models with a rate
 steps = 200
 lateral_pressure = 1e5          # Pa; if left out what the sides carry is kept
-#until_stress = -2.5e5          # Pa: the leg ends where the axial stress gets there (shear stress in simple_shear)
+#until_stress = -2.5e5          # Pa: the leg ends where the axial (in simple_shear the shear) stress gets there
 
 # The other tests:
 #[[legs]]
