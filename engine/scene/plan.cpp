@@ -89,7 +89,7 @@ void check_distance_from_origin(const SimulationDescription& s, const BodyDescri
 void plan_batches(const SceneDescription& scene, Plan& plan) {
   for (const MaterialDescription& material : scene.materials) {
     const ModelInfo& model = *find_model(material.model.text);
-    Material law = make_material(model.name, complete_values(model, material));
+    Material law = make_material(material);
     const double density = std::visit([](const auto& m) { return m.density; }, law);
     ColumnSet columns = transfer_columns(scene.simulation.transfer) | model.columns;
     // The vectorised path uses the stress where it is computed; a column is for those who ask for one.
@@ -157,6 +157,11 @@ void plan_attributes(const SceneDescription& scene, Plan& plan, Problems& proble
 }
 
 }  // namespace
+
+Material make_material(const MaterialDescription& description) {
+  const ModelInfo& model = *find_model(description.model.text);
+  return make_material(model.name, complete_values(model, description));
+}
 
 int Plan::frames() const {
   // A duration that is a whole number of frames but for rounding keeps its last one.

@@ -59,6 +59,9 @@ inline double mass_cutoff(const SimulationDescription& s) {
   return s.mass_cutoff.value_or(needed ? 1e-4 : 0);
 }
 
+/// The model of a description that the reader has checked.
+Material make_material(const MaterialDescription& description);
+
 /// Throws Error{input} with all problems found.
 Plan make_plan(SceneDescription scene);
 

@@ -23,6 +23,7 @@ class TableReader {
   struct Context {
     Report& report;
     std::optional<int> dimension;  // once it is read, and allowed
+    bool needs_density = true;     // of a material that has no default
   };
 
   /// `path`: dotted key of the table, empty for the whole scene.

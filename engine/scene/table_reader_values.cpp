@@ -146,7 +146,7 @@ const Preset* TableReader::read_preset(const Key& model_key) {
 }
 
 std::optional<double> TableReader::read_parameter(const Parameter& p, bool has_value) {
-  const bool needed = p.required() && !has_value;
+  const bool needed = p.required() && !has_value && (context_.needs_density || p.name != "density");
   const Key key = {p.name, needed ? Need::required : Need::optional, p.meaning, p.unit};
   if (p.is_switch()) {
     const toml::node* node = find(key, p.range());

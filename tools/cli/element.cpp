@@ -5,6 +5,7 @@
 
 #include "engine/base/error.h"
 #include "materials/tangent.h"
+#include "tools/cli/element_point.h"
 #include "tools/cli/element_request.h"
 #include "tools/cli/json_line.h"
 
@@ -19,30 +20,6 @@ json rows_of(const Matrix<double, D>& m) {
   json out = json::array();
   for (const auto& row : m.m) out.push_back(row);
   return out;
-}
-
-template <class Point>
-constexpr bool has_plastic_part = Point::columns.has(Column::plastic_deformation);
-
-template <int D, class Model, class Point>
-std::string branch_of(const Model& model, const Point& trial, double dt) {
-  if constexpr (requires { model.yield; }) {
-    return model.yield.branch(svd(trial.F_E).s);
-  } else if constexpr (requires { model.flow; }) {
-    const Stretches<double, D> stretches(svd_any_order(trial.F_E).s);
-    return model.flow.branch(stretches.s, model.moduli, trial.history, dt);
-  } else {
-    return "elastic";
-  }
-}
-
-/// Calls f(name, number) for each history variable of the point.
-template <class Model, class Point, class F>
-void visit_history(Point& point, F&& f) {
-  const ModelInfo& model = *find_model(Model::name);
-  point.visit([&](auto column, auto& value) {
-    if constexpr (info(column()).rank == Rank::scalar) f(std::string(history_name(model, column())), value);
-  });
 }
 
 template <int D, class Model>

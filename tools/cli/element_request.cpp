@@ -9,6 +9,7 @@
 #include "engine/base/error.h"
 #include "engine/base/nearest_name.h"
 #include "materials/model_info.h"
+#include "tools/cli/element_point.h"
 
 namespace firn {
 namespace {

@@ -19,15 +19,12 @@ struct ElementRequest {
   Material material;
   double dt;  // s; a millisecond when the line leaves it out
   Rows F_trial;
-  Rows F_P;  // identity when the line leaves it out
+  Rows F_P;                             // identity when the line leaves it out
   std::map<std::string, double> state;  // by the name of a history variable; what is left out is at rest
   bool tangent;
 
   int dimension() const { return static_cast<int>(F_trial.size()); }
 };
-
-/// What the scene and papers call the history of a model: "q" of sand, else "alpha".
-std::string_view history_name(const ModelInfo& model, Column column);
 
 /// Throws Error{ExitCode::input} that names the key and what it may hold.
 ElementRequest parse_element_request(const nlohmann::json& line);

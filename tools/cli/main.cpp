@@ -16,6 +16,8 @@
 #include "tools/cli/info.h"
 #include "tools/cli/materials.h"
 #include "tools/cli/memory.h"
+#include "tools/cli/path/path.h"
+#include "tools/cli/path/reader.h"
 #include "tools/cli/plan.h"
 #include "tools/cli/run.h"
 #include "tools/cli/schema.h"
@@ -34,9 +36,10 @@ CLI::App* add(CLI::App& app, const char* name, const char* what, const char* exa
   return command;
 }
 
-void add_overrides(CLI::App* command, std::vector<std::string>& overrides) {
+CLI::Option* add_overrides(CLI::App* command, std::vector<std::string>& overrides) {
   // One value a flag: the scene's name may follow.
-  command->add_option("--set", overrides, "Replace a value of the scene, as in --set simulation.cfl=0.2")
+  return command
+      ->add_option("--set", overrides, "Replace a value of the file, as in --set simulation.cfl=0.2")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
 }
@@ -171,12 +174,28 @@ void add_study_child(CLI::App& app, Action& action) {
 }
 
 void add_element(CLI::App& app, Action& action) {
-  CLI::App* c = add(app, "element", "Drive single material points: JSON lines in, JSON lines out",
-                    "echo "
+  auto options = std::make_shared<firn::PathOptions>();
+  auto example = std::make_shared<bool>(false);
+  CLI::App* c = add(app, "element",
+                    "Lead a material along a strain path; without one drive single points: JSON lines in, "
+                    "JSON lines out",
+                    "firn element tools/element/copper_uniaxial.toml --out copper.csv\n"
+                    "  echo "
                     "'{\"id\":\"a\",\"dimension\":2,\"dt\":1e-3,\"material\":{\"model\":\"neo_hookean\","
                     "\"mu\":1,\"lam\":1},"
                     "\"F_trial\":[[1.1,0],[0,1]]}' | firn element");
-  c->callback([&action] { action = [] { return firn::run_element(std::cin, std::cout); }; });
+  CLI::Option* path = c->add_option("path", options->path, "The path file: lab tests of one specimen");
+  c->add_option("--out", options->out, "File for the CSV; standard output if left out")->needs(path);
+  add_overrides(c, options->overrides)->needs(path);
+  c->add_flag("--example", *example, "Print a commented path")->excludes(path);
+  c->callback([=, &action] {
+    action = [=] {
+      if (*example) std::cout << firn::example_path();
+      if (*example) return 0;
+      return options->path.empty() ? firn::run_element(std::cin, std::cout)
+                                   : firn::run_element_path(*options, std::cout);
+    };
+  });
 }
 
 void add_materials(CLI::App& app, Action& action) {

@@ -6,6 +6,7 @@ from xml.sax.saxutils import escape
 
 WIDTH, HEIGHT = 800, 340
 LEFT, RIGHT, TOP, BOTTOM, GAP = 64, 784, 64, 286, 20
+APART_TOP = 36
 TEXT = "#808891"
 COLOURS = {"orange": "#d97a1e", "blue": "#3a8fe0", "green": "#3aa76d"}
 
@@ -13,6 +14,11 @@ COLOURS = {"orange": "#d97a1e", "blue": "#3a8fe0", "green": "#3aa76d"}
 class Curve:
     def __init__(self, name, colour, points):
         self.name, self.colour, self.points = name, COLOURS[colour], points
+
+
+class Panel:
+    def __init__(self, across, up, curves):
+        self.across, self.up, self.curves = across, up, curves
 
 
 def draw(title, panels, across, up):
@@ -42,8 +48,37 @@ def draw(title, panels, across, up):
         parts.append(text(left + width / 2, BOTTOM + 44, across, "middle"))
         parts.append(text(left + width / 2, TOP - 12, heading, "middle"))
         for curve in curves:
-            path = " ".join(f"{x_axis.at(x):.1f},{y_axis.at(y):.1f}" for x, y in curve.points)
-            parts.append(f'<polyline points="{path}" fill="none" stroke="{curve.colour}" stroke-width="2"/>')
+            parts.append(polyline(x_axis, y_axis, curve))
+    return document(title, parts)
+
+
+def draw_apart(title, panels):
+    """Panels that share no axis."""
+    width = (RIGHT - LEFT - GAP - LEFT) / len(panels)
+    parts = []
+    for k, panel in enumerate(panels):
+        left = LEFT + k * (width + GAP + LEFT)
+        points = [point for curve in panel.curves for point in curve.points]
+        x_axis = Axis([x for x, _ in points], left, left + width, 5)
+        y_axis = Axis([y for _, y in points], BOTTOM, APART_TOP, 6)
+        parts.append(text(left, 20, panel.up, "start"))
+        parts.append(text(left + width / 2, BOTTOM + 44, panel.across, "middle"))
+        for tick in y_axis.ticks:
+            parts.append(line(left, y_axis.at(tick), left + width, y_axis.at(tick), 0.7 if tick == 0 else 0.25))
+            parts.append(text(left - 8, y_axis.at(tick) + 4, f"{tick:g}", "end"))
+        for tick in x_axis.ticks:
+            parts.append(line(x_axis.at(tick), BOTTOM, x_axis.at(tick), BOTTOM + 5, 0.7))
+            parts.append(text(x_axis.at(tick), BOTTOM + 21, f"{tick:g}", "middle"))
+        parts += [polyline(x_axis, y_axis, curve) for curve in panel.curves]
+    return document(title, parts)
+
+
+def polyline(x_axis, y_axis, curve):
+    path = " ".join(f"{x_axis.at(x):.1f},{y_axis.at(y):.1f}" for x, y in curve.points)
+    return f'<polyline points="{path}" fill="none" stroke="{curve.colour}" stroke-width="2"/>'
+
+
+def document(title, parts):
     return (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" width="{WIDTH}" height="{HEIGHT}" '
             f'font-family="sans-serif" font-size="13">\n<title>{escape(title)}</title>\n' + "\n".join(parts)
             + "\n</svg>\n")
