@@ -134,12 +134,16 @@ class Folder(InfoTest):
     def test_it_says_what_is_left_of_a_run_that_was_killed(self):
         os.remove(os.path.join(self.out, "run.json"))
         os.remove(self.frame(3))
-        with open(os.path.join(self.out, "diagnostics.csv"), "a", encoding="utf-8") as table:
-            table.write("6,0.25,1")
+        with open(os.path.join(self.out, "diagnostics.csv"), encoding="utf-8") as table:
+            text = table.read()
+        # Of the last row some columns may be missing, or only the end of its last number.
+        for half in ("6,0.25,1", text.splitlines()[-1]):
+            with open(os.path.join(self.out, "diagnostics.csv"), "w", encoding="utf-8") as table:
+                table.write(text + half)
+            self.assertEqual(self.info(self.out)["last_rows"], self.table[-3:])
         said = self.info(self.out)
         self.assertEqual(said["frames"], [1, 2, 4, 5])
         self.assertIn("not finished", said["state"])
-        self.assertEqual(said["last_rows"], self.table[-3:])
         self.assertEqual(said["particles"], self.table[-1]["particles"])
         self.assertIn("4 (1 to 2, 4 to 5)", self.firn("info", self.out).stdout)
 

@@ -144,7 +144,7 @@ class Foam(SceneTest):
     def test_its_stress_rises_stays_on_a_plateau_and_rises_steeply(self):
         # A grain of snow far away: the program that reads frames wants the columns that only plastic materials have.
         with open(scene("foam"), encoding="utf-8") as text:
-            told, asked, rest = text.read().partition('attributes = ["stress", "volume"]')
+            told, asked, rest = text.read().partition('attributes = ["stress", "pressure", "volume"]')
         self.assertTrue(asked)
         os.mkdir(self.path("images"))
         shutil.copy(os.path.join(SCENES, "images", "foam.pgm"), self.path("images"))
