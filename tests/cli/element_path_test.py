@@ -9,7 +9,7 @@ import subprocess
 import xml.etree.ElementTree
 
 from element_path import CLAY, CLAY_P_WAVE, METAL, METAL_P_WAVE, SAND, SAND_P_WAVE, PathTest, kirchhoff
-from firn_cli import SOURCE, main, programs
+from firn_cli import SOURCE, main
 
 E = METAL["youngs_modulus"]
 YIELD = METAL["sigma_y"]
