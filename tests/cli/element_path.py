@@ -12,6 +12,10 @@ METAL_P_WAVE = 2e11 * 0.7 / (1.3 * 0.4)
 SAND = {"model": "sand_klar_2016", "youngs_modulus": 5e7, "poissons_ratio": 0.3, "h0": 30, "h1": 0, "h3": 0}
 SAND_P_WAVE = 5e7 * 0.7 / (1.3 * 0.4)
 
+# Its strength fades as it is torn.
+CLAY = {"model": "nacc_wolper_2019", "youngs_modulus": 1e7, "poissons_ratio": 0.3, "M": 1.2, "beta": 0.3, "xi": 3}
+CLAY_P_WAVE = 1e7 * 0.7 / (1.3 * 0.4)
+
 
 def toml(material, *legs):
     """A path file; line 1 is [material], with a key a line."""

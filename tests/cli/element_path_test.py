@@ -8,8 +8,8 @@ import os
 import subprocess
 import xml.etree.ElementTree
 
-from element_path import METAL, METAL_P_WAVE, SAND, SAND_P_WAVE, PathTest, kirchhoff
-from firn_cli import SOURCE, main, programs
+from element_path import CLAY, CLAY_P_WAVE, METAL, METAL_P_WAVE, SAND, SAND_P_WAVE, PathTest, kirchhoff
+from firn_cli import SOURCE, main
 
 E = METAL["youngs_modulus"]
 YIELD = METAL["sigma_y"]
@@ -141,6 +141,28 @@ class Soils(PathTest):
         held = self.lead(SAND, {"test": "isotropic", "pressure": 1e5}, {"test": "simple_shear", "strain": 0.3})
         self.assertEqual(len({row["strain_axial"] for row in held if row["leg"] == 1}), 1)
         self.assertGreater(abs(held[-1]["stress_yy"] + 1e5), 100)
+
+    def test_sides_that_differ_keep_each_its_own_stress(self):
+        rows = self.lead(SAND, {"test": "isotropic", "pressure": 1e5},
+                         {"test": "simple_shear", "strain": 0.1, "normal_pressure": 1e5},
+                         {"test": "triaxial", "strain": -0.05})
+        before = [row for row in rows if row["leg"] == 1][-1]
+        self.assertGreater(abs(before["stress_xx"] - before["stress_zz"]), 100)
+        for face in ("stress_xx", "stress_zz"):
+            self.assert_all_near((row[face] for row in rows if row["leg"] == 2), before[face], 1e-8 * SAND_P_WAVE)
+
+    def test_what_is_torn_keeps_its_width(self):
+        rows = self.lead(CLAY, {"test": "uniaxial", "strain": 0.05})
+        self.assert_all_near((row["stress_xx"] for row in rows), 0, 1e-8 * CLAY_P_WAVE)
+        # Its sides carry nothing either if they are infinitely far away.
+        self.assertLess(max(abs(row["strain_lateral"]) for row in rows), 0.05)
+        self.assertGreater(max(row["stress_yy"] for row in rows), 1e5)
+        self.assertLess(rows[-1]["stress_yy"], 100)
+
+    def test_coarse_steps_across_a_yield_surface_are_solved(self):
+        rows = self.lead(CLAY, {"test": "isotropic", "pressure": 1e4, "steps": 1},
+                         {"test": "triaxial", "strain": -0.1, "lateral_pressure": 1e4, "steps": 3})
+        self.assert_all_near((row["stress_xx"] for row in rows[1:]), -1e4, 1e-8 * CLAY_P_WAVE)
 
     def test_simple_shear_of_rubber_is_its_closed_form(self):
         rubber = {"model": "neo_hookean", "youngs_modulus": 2.6e6, "poissons_ratio": 0.3}  # mu = 1e6

@@ -77,7 +77,7 @@ Root search(const Residual& residual, double x) {
   const auto at = [](double value) { return Eigen::VectorXd(Eigen::VectorXd::Constant(1, value)); };
   const auto f = [&](double value) { return residual(at(value))[0]; };
   const double f_x = f(x);
-  for (double reach = 1e-9; reach < 2; reach *= 2)
+  for (double reach = 1e-9; reach < 10; reach *= 2)
     for (const double end : {x + reach, x - reach}) {
       const double f_end = f(end);
       if (!std::isfinite(f_end) || (f_end > 0) == (f_x > 0)) continue;

@@ -1,6 +1,8 @@
 #include "tools/cli/path/walk.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -12,6 +14,8 @@
 namespace firn {
 namespace {
 
+// What has come apart stretches without end towards a stress of zero: so much in a step is no answer.
+constexpr double kFarthest = 1;
 constexpr double kAccuracy = 1e-8;  // of a driven stress, over the P-wave modulus
 
 class Walk {
@@ -87,7 +91,10 @@ class Walk {
         for (const int axis : way.stresses[g].axes) strains.log[axis] += found[static_cast<Eigen::Index>(g)];
       return specimen_.strained(state_, strains, part / way.steps * way.time);
     };
-    const auto residual = [&](const Eigen::VectorXd& found) {
+    const double farthest = kFarthest * (1 + size(way) / way.steps);
+    const auto residual = [&](const Eigen::VectorXd& found) -> Eigen::VectorXd {
+      if (found.cwiseAbs().maxCoeff() > farthest)
+        return Eigen::VectorXd::Constant(found.size(), std::numeric_limits<double>::infinity());
       const SpecimenState state = state_with(found);
       Eigen::VectorXd out(found.size());
       for (std::size_t g = 0; g < way.stresses.size(); ++g) {
@@ -99,6 +106,13 @@ class Walk {
     };
     const Root root = solve(residual, part * last_, elastic_slope(way.stresses));
     return {state_with(root.x), root.x, root.residual};
+  }
+
+  /// The largest strain that is driven over the way.
+  static double size(const Way& way) {
+    double out = std::abs(way.strains.gamma);
+    for (int axis = 0; axis < 3; ++axis) out = std::max(out, std::abs(way.strains.log[axis]));
+    return out;
   }
 
   Eigen::MatrixXd elastic_slope(const std::vector<DrivenStress>& stresses) const {
