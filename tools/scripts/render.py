@@ -1,9 +1,10 @@
 """Renders frames of a particle cache with Blender's Cycles. Started by the script `render` beside this file.
 
-Snow is drawn as grains: every particle becomes a handful of small balls scattered through the volume that the particle
-stands for, so cracks, chunks and debris are those of the simulation and only the texture below the particle spacing is
-invented. Elastic bodies are drawn as surfaces, one colour per piece. Planes and boxes among the scene's colliders are
-drawn where the scene puts them. The axes are the scene's: y is up.
+Snow is drawn as grains: every particle becomes a handful of small balls scattered through the volume that the
+particle stands for, so cracks, chunks and debris are those of the simulation and only the texture below the particle
+spacing is invented. Sand is drawn as grains too. All else is drawn as surfaces, one colour per piece from left to
+right. Planes and boxes among the scene's colliders are drawn where the scene puts them, the cones that a difference
+leaves hollow as glass. The axes are the scene's: y is up.
 """
 
 import argparse
@@ -20,16 +21,9 @@ from mathutils import Euler, Matrix, Vector
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))  # Blender has another
+from render_objects import SKY, balls_object, fade, material, mesh_object  # noqa: E402
 from render_points import SCRATCH, neighbours, pieces, read_cache, read_ply, tool, write_ply  # noqa: E402
-
-# Camera and light per scene, by the scene's file name. Metres; the light's place is relative to the target.
-VIEWS = {
-    "snowball": dict(eye=(2.7, 1.15, 0.75), target=(-0.05, 0.43, 0.06), lens=44, key=(1.0, 2.0, 2.0), power=185),
-    "snow_on_wedge": dict(eye=(0.75, 1.2, 2.6), target=(0.02, 0.44, 0.0), lens=36, key=(-2.1, 1.8, 1.1), power=205),
-    "elastic_cubes": dict(eye=(0.5, 0.9, 3.2), target=(0.0, 0.0, 0.0), lens=66, key=(-1.2, 2.2, 1.4), power=85),
-}
-SKY = (0.085, 0.110, 0.150)
-BODY_COLOURS = [(0.62, 0.05, 0.02), (0.01, 0.12, 0.42), (0.75, 0.50, 0.05), (0.10, 0.40, 0.15)]
+from render_views import BODY_COLOURS, COLOURS, VIEWS  # noqa: E402
 
 
 def arguments():
@@ -59,103 +53,7 @@ def arguments():
         os._exit(e.code)
 
 
-# ---- objects ----
-
-
-def material(name, colour, roughness=0.8, grain=0.0, grain_size=1.0, subsurface=0.0, specular=0.2):
-    """A plain surface; `grain` varies its brightness by that fraction on the scale of grain_size metres."""
-    m = bpy.data.materials.new(name)
-    m.use_nodes = True
-    nodes, links = m.node_tree.nodes, m.node_tree.links
-    surface = nodes["Principled BSDF"]
-    surface.inputs["Base Color"].default_value = (*colour, 1)
-    surface.inputs["Roughness"].default_value = roughness
-    surface.inputs["Specular"].default_value = specular
-    if subsurface:
-        surface.inputs["Subsurface"].default_value = subsurface
-        surface.inputs["Subsurface Color"].default_value = (*colour, 1)
-        surface.inputs["Subsurface Radius"].default_value = (0.03, 0.02, 0.015)
-    if grain:
-        place = nodes.new("ShaderNodeTexCoord")
-        noise = nodes.new("ShaderNodeTexNoise")
-        noise.inputs["Scale"].default_value = 1 / grain_size
-        noise.inputs["Detail"].default_value = 9
-        noise.inputs["Roughness"].default_value = 0.65
-        ramp = nodes.new("ShaderNodeValToRGB")
-        for end, sign in ((0, -1), (1, 1)):
-            ramp.color_ramp.elements[end].color = (*(c * (1 + sign * grain) for c in colour), 1)
-            ramp.color_ramp.elements[end].position = 0.5 + sign * 0.25
-        links.new(place.outputs["Object"], noise.inputs["Vector"])
-        links.new(noise.outputs["Fac"], ramp.inputs["Fac"])
-        links.new(ramp.outputs["Color"], surface.inputs["Base Color"])
-    return m
-
-
-def fade(m, near, far):
-    """Lets a surface go over into the colour of the sky between two distances from the camera."""
-    nodes, links = m.node_tree.nodes, m.node_tree.links
-    end = nodes["Material Output"]
-    ramp = nodes.new("ShaderNodeMapRange")
-    ramp.interpolation_type = "SMOOTHSTEP"
-    ramp.inputs["From Min"].default_value, ramp.inputs["From Max"].default_value = near, far
-    haze = nodes.new("ShaderNodeEmission")
-    haze.inputs["Color"].default_value = (*SKY, 1)
-    mix = nodes.new("ShaderNodeMixShader")
-    links.new(nodes.new("ShaderNodeCameraData").outputs["View Distance"], ramp.inputs["Value"])
-    links.new(ramp.outputs[0], mix.inputs["Fac"])
-    links.new(nodes["Principled BSDF"].outputs[0], mix.inputs[1])
-    links.new(haze.outputs[0], mix.inputs[2])
-    links.new(mix.outputs[0], end.inputs["Surface"])
-
-
-def mesh_object(name, points, polygons, surface, smooth=False):
-    mesh = bpy.data.meshes.new(name)
-    loops = sum(p.size for p in polygons)
-    mesh.vertices.add(len(points))
-    mesh.vertices.foreach_set("co", np.asarray(points, np.float32).ravel())
-    mesh.loops.add(loops)
-    mesh.loops.foreach_set("vertex_index", np.concatenate([p.ravel() for p in polygons]))
-    totals = np.concatenate([np.full(len(p), p.shape[1], np.int32) for p in polygons])
-    mesh.polygons.add(len(totals))
-    mesh.polygons.foreach_set("loop_start", np.cumsum(totals) - totals)
-    mesh.polygons.foreach_set("loop_total", totals)
-    mesh.polygons.foreach_set("use_smooth", np.full(len(totals), smooth))
-    mesh.update(calc_edges=True)
-    mesh.materials.append(surface)
-    thing = bpy.data.objects.new(name, mesh)
-    bpy.context.scene.collection.objects.link(thing)
-    return thing
-
-
-def balls_object(name, centres, radii, surface):
-    """Perfect balls: a mesh of loose points that a node group turns into a point cloud."""
-    mesh = bpy.data.meshes.new(name)
-    mesh.vertices.add(len(centres))
-    mesh.vertices.foreach_set("co", centres.astype(np.float32).ravel())
-    mesh.attributes.new("ball_radius", "FLOAT", "POINT").data.foreach_set("value", radii.astype(np.float32))
-    mesh.materials.append(surface)
-    thing = bpy.data.objects.new(name, mesh)
-    bpy.context.scene.collection.objects.link(thing)
-
-    group = bpy.data.node_groups.new(name, "GeometryNodeTree")
-    group.inputs.new("NodeSocketGeometry", "Geometry")
-    group.outputs.new("NodeSocketGeometry", "Geometry")
-    start, end = group.nodes.new("NodeGroupInput"), group.nodes.new("NodeGroupOutput")
-    to_points = group.nodes.new("GeometryNodeMeshToPoints")
-    radius = group.nodes.new("GeometryNodeInputNamedAttribute")
-    radius.data_type = "FLOAT"
-    radius.inputs["Name"].default_value = "ball_radius"
-    dress = group.nodes.new("GeometryNodeSetMaterial")
-    dress.inputs["Material"].default_value = surface
-    group.links.new(start.outputs[0], to_points.inputs["Mesh"])
-    group.links.new(next(o for o in radius.outputs if o.enabled), to_points.inputs["Radius"])
-    group.links.new(to_points.outputs[0], dress.inputs["Geometry"])
-    group.links.new(dress.outputs[0], end.inputs[0])
-    thing.modifiers.new(name, "NODES").node_group = group
-    return thing
-
-
-def snow(points, spacing):
+def grains(points, spacing, surface):
     rng = np.random.default_rng(1)
 
     def in_ball(n, radius):
@@ -163,18 +61,17 @@ def snow(points, spacing):
         direction /= np.linalg.norm(direction, axis=1, keepdims=True)
         return direction * (radius * rng.random((n, 1)) ** (1 / 3))
 
-    surface = material("snow", (0.90, 0.92, 0.95), roughness=0.6, specular=0.3)
     # A particle alone in the air is a small clod; among its like it fills its share of the volume.
     size = spacing * np.interp(neighbours(points, 1.5 * spacing), (4, 30), (0.5, 1.0))
     many = 60
-    grains = np.repeat(points, many, axis=0) + in_ball(len(points) * many, 0.76) * np.repeat(size, many)[:, None]
-    radii = np.repeat(size, many) * (0.06 + 0.12 * rng.random(len(grains)) ** 3)
+    small = np.repeat(points, many, axis=0) + in_ball(len(points) * many, 0.76) * np.repeat(size, many)[:, None]
+    radii = np.repeat(size, many) * (0.06 + 0.12 * rng.random(len(small)) ** 3)
     hearts = points + in_ball(len(points), 0.25) * size[:, None]
     heart_radii = size * (0.33 + 0.12 * rng.random(len(hearts)))
-    balls_object("snow", np.concatenate([hearts, grains]), np.concatenate([heart_radii, radii]), surface)
+    balls_object("grains", np.concatenate([hearts, small]), np.concatenate([heart_radii, radii]), surface)
 
 
-def rubber(points, spacing):
+def rubber(points, spacing, colours):
     groups = [g for g in pieces(points, 1.5 * spacing) if len(g) > 8]
     for i, group in enumerate(sorted(groups, key=lambda g: g[:, 0].mean())):
         write_ply(SCRATCH / "piece.ply", group)
@@ -185,12 +82,55 @@ def rubber(points, spacing):
             "-dilate", "radius=1.5", "-gauss", "iter=4", "size=2", "-erode", "radius=3",
             "-ls2mesh", "adapt=0", "-write", SCRATCH / "surface.ply",
         )  # fmt: skip
-        colour = BODY_COLOURS[i % len(BODY_COLOURS)]
+        colour = colours[i % len(colours)]
         look = material(f"rubber {i}", colour, roughness=0.38, specular=0.5)
         mesh_object(f"piece {i}", *read_ply(SCRATCH / "surface.ply"), look, smooth=True)
 
 
-def colliders(scene):
+def glass(cones):
+    """The mantles of cones on the y axis, but for what lies in another of them."""
+    surface = bpy.data.materials.new("glass")
+    surface.use_nodes = True
+    nodes, links = surface.node_tree.nodes, surface.node_tree.links
+    rim = nodes.new("ShaderNodeLayerWeight")
+    rim.inputs["Blend"].default_value = 0.25
+    shine, mix = nodes.new("ShaderNodeBsdfGlossy"), nodes.new("ShaderNodeMixShader")
+    shine.inputs["Roughness"].default_value = 0.08
+    links.new(rim.outputs["Facing"], mix.inputs["Fac"])
+    links.new(nodes.new("ShaderNodeBsdfTransparent").outputs[0], mix.inputs[1])
+    links.new(shine.outputs[0], mix.inputs[2])
+    links.new(mix.outputs[0], nodes["Material Output"].inputs["Surface"])
+
+    def radius(cone, y):
+        return cone["radius"] * max((cone["apex"][1] - y) / (cone["apex"][1] - cone["base"][1]), 0)
+
+    angles = np.linspace(0, 2 * math.pi, 96, endpoint=False)
+    for cone in cones:
+        rings = []
+        for y in np.linspace(cone["base"][1], cone["apex"][1], 200):
+            r = radius(cone, y)
+            if all(r >= radius(other, y) for other in cones):
+                rings.append(np.stack([r * np.cos(angles), np.full(96, y), r * np.sin(angles)], axis=1))
+        here = np.arange(96)
+        ring = np.stack([here, np.roll(here, -1), np.roll(here, -1) + 96, here + 96], axis=1)
+        quads = np.concatenate([ring + 96 * k for k in range(len(rings) - 1)]).astype(np.int32)
+        mesh_object("glass", np.concatenate(rings), [quads], surface, smooth=True)
+
+
+def motion(collider, time):
+    """What key frames do to a collider, linear in between: places it as the simulation does."""
+    keys = collider.get("keyframes", [])
+    if not keys:
+        return Matrix()
+
+    def at(name):
+        return [np.interp(time, [k["time"] for k in keys], [k.get(name, (0, 0, 0))[a] for k in keys]) for a in range(3)]
+
+    turn = Euler([math.radians(a) for a in at("rotation")], "XYZ").to_matrix().to_4x4()
+    return Matrix.Translation(at("position")) @ turn
+
+
+def colliders(scene, time):
     ground = material("ground", (0.060, 0.066, 0.075), roughness=0.55, grain=0.35, grain_size=0.5)
     fade(ground, 3.0, 11.0)
     wall = material("wall", (0.155, 0.145, 0.135), roughness=0.9, grain=0.30, grain_size=0.4)
@@ -208,7 +148,7 @@ def colliders(scene):
                 ground if normal.y > 0.7 else wall,
             )
             turn = normal.to_track_quat("Z", "Y").to_matrix().to_4x4()
-            thing.matrix_world = Matrix.Translation(shape["point"]) @ turn
+            thing.matrix_world = motion(c, time) @ Matrix.Translation(shape["point"]) @ turn
         elif shape["type"] == "box":
             low, high = shape["min"], shape["max"]
             corners = [(x, y, z) for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])]
@@ -217,9 +157,12 @@ def colliders(scene):
             turn = Euler([math.radians(a) for a in shape.get("rotate", (0, 0, 0))], "XYZ").to_matrix().to_4x4()
             scale = shape.get("scale", 1)
             scale = Matrix.Diagonal((*(scale if isinstance(scale, list) else [scale] * 3), 1))
-            thing.matrix_world = Matrix.Translation(shape.get("translate", (0, 0, 0))) @ turn @ scale
+            place = Matrix.Translation(shape.get("translate", (0, 0, 0)))
+            thing.matrix_world = motion(c, time) @ place @ turn @ scale
             edge = thing.modifiers.new("edge", "BEVEL")
             edge.width, edge.segments = 0.004, 2
+        elif shape["type"] == "difference":
+            glass([part for part in shape["of"][1:] if part["type"] == "cone"])
         else:
             print(f"render: collider {c['name']}: a {shape['type']} is not drawn")
 
@@ -315,7 +258,8 @@ def main():
     view = dict(VIEWS.get(args.scene.stem, VIEWS["snowball"]))
     view.update({k: getattr(args, k) for k in ("eye", "target", "lens") if getattr(args, k) is not None})
     body = scene["bodies"][0]
-    is_snow = "snow" in scene["materials"][body["material"]]["model"]
+    model = scene["materials"][body["material"]]["model"]
+    colours = COLOURS.get(args.scene.stem, BODY_COLOURS)
 
     across, up = np.linspace(-1, 1, args.size[0]), np.linspace(-1, 1, args.size[1])
     vignette = 1 - 0.11 * (across[None, :, None] ** 2 + up[:, None, None] ** 2)
@@ -324,8 +268,16 @@ def main():
         bpy.ops.wm.read_factory_settings(use_empty=True)
         bpy.ops.preferences.addon_enable(module="cycles")
         points, cell = read_cache(cache)
-        (snow if is_snow else rubber)(points, cell / body.get("particles_per_cell", 8) ** (1 / 3))
-        colliders(scene)
+        spacing = cell / body.get("particles_per_cell", 8) ** (1 / 3)
+        if "snow" in model:
+            grains(points, spacing, material("snow", (0.90, 0.92, 0.95), roughness=0.6, specular=0.3))
+        elif "sand" in model:
+            grains(points, spacing, material("sand", colours[0], roughness=0.9))
+        else:
+            rubber(points, spacing, colours)
+        # Frame 1 is the start.
+        number = int(cache.stem.rpartition(".")[2])
+        colliders(scene, (number - 1) / scene["simulation"].get("frame_rate", 24))
         stage(args, view)
         s = bpy.context.scene
         s.render.image_settings.file_format = "PNG"
