@@ -12,10 +12,11 @@ struct Attribute {
   std::string_view meaning;
 };
 
-inline constexpr std::array<Attribute, 10> kAttributes = {{
+inline constexpr std::array<Attribute, 11> kAttributes = {{
     {"F_E", 9, "elastic deformation gradient"},
     {"F_P", 9, "plastic deformation gradient"},
     {"Jp", 1, "det F_P: volume change that stays when the load goes"},
+    {"alpha", 1, "what the material hardens with: plastic strain of metals, q of sand, volume of Cam-clay"},
     {"density", 1, "mass over present volume, kg/m^3"},
     {"stress", 9, "Cauchy stress, Pa, positive in tension"},
     {"pressure", 1, "mean of the Cauchy stress along the scene's axes, Pa, positive in compression"},

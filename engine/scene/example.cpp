@@ -82,7 +82,8 @@ SceneDescription live_scene(const ModelInfo& model) {
   d.colliders = colliders();
   d.domain = DomainDescription{{-2, -0.2, -1}, {2, 2, 1}};
   for (const Attribute& attribute : kAttributes)
-    d.output.attributes.push_back({std::string(attribute.name), {}});
+    if (attribute.name != "alpha" || model.columns.has(Column::hardening))
+      d.output.attributes.push_back({std::string(attribute.name), {}});
   return d;
 }
 

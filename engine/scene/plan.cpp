@@ -149,6 +149,9 @@ void plan_attributes(const SceneDescription& scene, Plan& plan, Problems& proble
     if ((name.text == "F_P" || name.text == "Jp") && !stored(Column::plastic_deformation))
       problems.add(name.mark, "output.attributes",
                    fmt::format("'{}' does not exist here: no material of this scene is plastic", name.text));
+    if (name.text == "alpha" && !stored(Column::hardening))
+      problems.add(name.mark, "output.attributes",
+                   "'alpha' does not exist here: no material of this scene stores what it hardens with");
     if (name.text == "C" && !stored(Column::affine))
       problems.add(name.mark, "output.attributes",
                    "'C' does not exist here: only simulation.transfer = \"apic\" and \"mls\" store it");

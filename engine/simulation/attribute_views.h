@@ -90,6 +90,12 @@ Writer<Real, D> writer(std::string_view name) {
                  ? static_cast<float>(determinant(t.template view<Column::plastic_deformation>().load(p)))
                  : 1.0F;
     };
+  if (name == "alpha")  // a body that does not harden, in a scene with one that does, has none
+    return [](const Table& t, std::size_t p, std::size_t, float* out) {
+      *out = t.columns().has(Column::hardening)
+                 ? static_cast<float>(t.template view<Column::hardening>().load(p))
+                 : 0.0F;
+    };
   if (name == "C")
     return [](const Table& t, std::size_t p, std::size_t, float* out) {
       put_matrix<D>(t.template view<Column::affine>().load(p), 0.0F, out);

@@ -7,7 +7,7 @@ import os
 from firn_cli import SCENES, FirnTest, main, run_record
 
 KEYS = {"scene", "title", "kernels", "effects", "effect_detail", "materials", "bodies", "estimate", "warnings"}
-MATERIAL = {"name", "model", "energy", "yield", "hardening", "decomposition", "columns", "absent_columns",
+MATERIAL = {"name", "model", "energy", "yield", "hardening", "rate", "decomposition", "columns", "absent_columns",
             "bytes_per_particle"}
 ESTIMATE = {"particles", "blocks", "particle_bytes", "grid_bytes", "peak_bytes", "frames", "disk_bytes",
             "wave_speed", "dt", "steps", "core_seconds"}

@@ -95,8 +95,8 @@ class Scaling(ScriptTest):
 class Prices(ScriptTest):
     def test_effects_arrive_one_by_one_and_columns_with_the_plasticity(self):
         done = self.script("prices", "--quick")
-        (prices, absences), captions = self.tables(done.stdout)
-        self.assertEqual(len(captions), 2)
+        (prices, absences, presets), captions = self.tables(done.stdout)
+        self.assertEqual(len(captions), 3)
         rows = {row[0].split(" (")[0]: row for row in prices[1:]}
         elastic, snow = rows["elastic"], rows["+ plasticity and hardening"]
         for row in rows.values():
@@ -114,6 +114,12 @@ class Prices(ScriptTest):
         halves = rows["snow, half of it `neo_hookean` instead"]
         self.assertEqual(int(snow[4]) - int(elastic[4]), 36)
         self.assertEqual(int(snow[4]) - int(halves[4]), 18)
+
+        # Each model has its own state and no other's: F_P, alpha, and sand's v_c.
+        columns = {row[0].strip("`"): int(row[4]) for row in presets[1:]}
+        own = {name: bytes_ - columns["rubber"] for name, bytes_ in columns.items()}
+        self.assertEqual(own, {"rubber": 0, "snow_packed": 36, "dry_sand": 44, "copper": 40, "ice": 40, "clay": 40,
+                               "foam": 36, "water": 0, "honey": 0})
 
         self.assertEqual(len(absences), 4)
         for row in absences[1:]:

@@ -18,6 +18,7 @@ std::vector<std::string> effects_of(const Plan& plan, const std::string& materia
   if (model.decomposition != "none") out.emplace_back("decomposition");
   if (model.yield != "none") out.emplace_back("plasticity");
   if (model.hardening != "none") out.emplace_back("hardening");
+  if (model.rate != "none") out.emplace_back("rate");
   return out;
 }
 

@@ -28,7 +28,8 @@ std::string columns_of(const ModelInfo& m) {
 std::string parts_of(const ModelInfo& m) {
   std::string out{m.energy};
   if (m.yield != "none") out += fmt::format(" + {}", m.yield);
-  if (m.hardening != "none") out += fmt::format(" + {} hardening", m.hardening);
+  if (m.hardening != "none")
+    out += fmt::format(" + {}{}", m.hardening, m.hardening.ends_with("softening") ? "" : " hardening");
   if (m.rate != "none") out += fmt::format(" + {} rate", m.rate);
   return out;
 }

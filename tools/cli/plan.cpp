@@ -39,7 +39,16 @@ std::vector<Effect> effects(const Plan& plan) {
   const auto any = [&](auto&& test) { return std::any_of(plan.batches.begin(), plan.batches.end(), test); };
   const auto info_of = [](const BatchPlan& b) { return find_model(b.model); };
   const bool plastic = any([&](const auto& b) { return info_of(b)->yield != "none"; });
-  const bool hardens = any([&](const auto& b) { return info_of(b)->hardening != "none"; });
+  // The laws of one kind that the materials have, each once.
+  const auto laws = [&](std::string_view ModelInfo::*kind) {
+    std::vector<std::string_view> out;
+    for (const BatchPlan& b : plan.batches) {
+      const std::string_view law = info_of(b)->*kind;
+      if (law != "none" && std::find(out.begin(), out.end(), law) == out.end()) out.push_back(law);
+    }
+    return fmt::format("{}", fmt::join(out, ", "));
+  };
+  const std::string hardening = laws(&ModelInfo::hardening), rate = laws(&ModelInfo::rate);
   const bool decomposes = any([&](const auto& b) { return info_of(b)->decomposition != "none"; });
   const GridEffects& grid = plan.effects;
   const bool friction =
@@ -57,7 +66,8 @@ std::vector<Effect> effects(const Plan& plan) {
   const bool increments = plan.scene.simulation.transfer == Transfer::flip;
   return {
       {"plasticity", plastic, plastic ? "return map each step, F_P stored" : "no return map, no F_P"},
-      {"hardening", hardens, hardens ? "moduli follow F_P" : "moduli are constants"},
+      {"hardening", !hardening.empty(), hardening.empty() ? "moduli and strengths are constants" : hardening},
+      {"rate", !rate.empty(), rate.empty() ? "no flow depends on time" : rate},
       {"decomposition", decomposes,
        decomposes ? "one SVD of F_E a particle and step" : "no SVD, no polar decomposition"},
       {"affine velocity", affine, affine ? "C stored" : "no C"},
@@ -121,6 +131,7 @@ nlohmann::json plan_json(const Plan& plan, const Estimate& e) {
                                 {"energy", model.energy},
                                 {"yield", model.yield},
                                 {"hardening", model.hardening},
+                                {"rate", model.rate},
                                 {"decomposition", model.decomposition},
                                 {"columns", column_symbols(batch.columns, true)},
                                 {"absent_columns", column_symbols(batch.columns, false)},

@@ -120,6 +120,21 @@ TEST_CASE("derived attributes fit the state at rest, and two dimensions are embe
   CHECK(total == Approx(1000).epsilon(1e-6));  // one square metre
 }
 
+TEST_CASE("alpha of a stretched metal is the closed form's, and models without one are told so") {
+  // F is the same everywhere: plane pure shear by 1 % in one step, free edges have not been felt yet.
+  const std::string metal = "materials.rubber.model='von_mises'";
+  const std::vector<std::string> settings = {metal, "materials.rubber.sigma_y=10", "output.attributes=['alpha']",
+                                             "bodies.block.velocity=['x', '-y', 0]", "simulation.path='plain'"};
+  Simulated run(kBlock, settings);
+  run->step(0.01);
+  const double mu = 1e4 / 2.6, e = std::log(1.01), dev = std::sqrt(2.0) * e;
+  const double q = std::sqrt(6.0) * mu * dev;
+  for (const float alpha : run.attribute("alpha"))
+    REQUIRE(alpha == Approx((q - 10) / (3 * mu)).epsilon(1e-2));  // exp(e) and 1 - 0.01 are apart by that
+  CHECK_THROWS_WITH(Simulated(kBlock, {"output.attributes=['alpha']"}),
+                    Catch::Contains("no material of this scene stores what it hardens with"));
+}
+
 TEST_CASE("pressure is that of the closed form, with and without a stress beside it") {
   const std::size_t D = GENERATE(2, 3);
   const std::string beside = GENERATE("", ", 'stress'");
