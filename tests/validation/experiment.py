@@ -10,6 +10,12 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(
 from firn_cli import cache_rows, diagnostics, exported_points, frame_name, programs  # noqa: E402
 
 
+def attribute(frame, name):
+    """One number of each particle of a frame, in the order of their ids."""
+    done = subprocess.run([programs["firn"], "info", frame, "--csv", name], stdout=subprocess.PIPE, text=True, check=True)
+    return [float(line.split(",")[-1]) for line in done.stdout.splitlines()[1:]]
+
+
 class Run:
     """A finished run of a scene, given as text: its table, and its frames."""
 

@@ -58,7 +58,7 @@ name = "wall"
 shape = {{ type = "plane", point = [0, 0, 0], normal = [0, 1, 0] }}
 contact = "separating"
 [output]
-attributes = ["F_E", "Jp", "material"]  # for the program that reads frames
+attributes = ["F_E", "Jp", "material", "alpha"]  # for the program that reads frames
 """
 
 
@@ -81,40 +81,4 @@ def measure(bar, cells, before, after):
             skin.append((q[1], math.hypot(q[0], q[2]) * bar.radius / r))
     mushroom = max(radius for _, radius in skin)
     fifth = [radius for y, radius in skin if abs(y - 0.2 * bar.length) < bar.length / 50]
-    return types.SimpleNamespace(length=length, mushroom=mushroom, fifth=sum(fifth) / len(fifth),
-                                 strain=largest_strain(spacing, before, after))
-
-
-def largest_strain(spacing, before, after):
-    """Largest equivalent strain sqrt(2/3) |dev ln V|, from differences between neighbours on the lattice.
-
-    Where the metal flows one way only that is the history of plastic strain, less what is elastic.
-    """
-    at = {tuple(int(x // spacing) for x in p): q for p, q in zip(before, after)}
-    largest = 0
-    for (i, j, k), q in at.items():
-        near = [at.get(cell) for cell in ((i + 1, j, k), (i, j + 1, k), (i, j, k + 1))]
-        if None in near or j > 40:
-            continue
-        F = [[(near[b][a] - q[a]) / spacing for b in range(3)] for a in range(3)]
-        C = [[sum(F[c][a] * F[c][b] for c in range(3)) for b in range(3)] for a in range(3)]
-        logs = [math.log(value) / 2 for value in eigenvalues(C)]
-        mean = sum(logs) / 3
-        largest = max(largest, math.sqrt(2 / 3 * sum((e - mean)**2 for e in logs)))
-    return largest
-
-
-def eigenvalues(A):
-    """Of a symmetric matrix with positive ones, by Jacobi's rotations."""
-    A = [row[:] for row in A]
-    for _ in range(8):
-        for p, q in ((0, 1), (0, 2), (1, 2)):
-            if A[p][q] == 0:
-                continue
-            angle = 0.5 * math.atan2(2 * A[p][q], A[q][q] - A[p][p])
-            c, s = math.cos(angle), math.sin(angle)
-            for k in range(3):
-                A[k][p], A[k][q] = c * A[k][p] - s * A[k][q], s * A[k][p] + c * A[k][q]
-            for k in range(3):
-                A[p][k], A[q][k] = c * A[p][k] - s * A[q][k], s * A[p][k] + c * A[q][k]
-    return [max(A[k][k], 1e-12) for k in range(3)]
+    return types.SimpleNamespace(length=length, mushroom=mushroom, fifth=sum(fifth) / len(fifth))
