@@ -10,9 +10,9 @@
 namespace firn {
 
 struct ModelInfo {
-  std::string_view name;                      // "snow_stomakhin_2013"
-  std::string_view title;                     // one line: what it models
-  std::string_view source;                    // author, year, equations
+  std::string_view name;                            // "snow_stomakhin_2013"
+  std::string_view title;                           // one line: what it models
+  std::string_view source;                          // author, year, equations
   std::string_view energy, yield, hardening, rate;  // the parts it is composed of; "none"
   std::string_view decomposition;  // "none", "polar" or "SVD": what one update costs beside arithmetic
   ColumnSet columns;

@@ -1,5 +1,6 @@
 // A number that counts the floating-point operations done with it: + - * / and each root, exponential,
-// logarithm or sine are one. What only picks or moves bits (min, max, abs, signs, comparisons, selections) is none.
+// logarithm or sine are one. What only picks or moves bits (min, max, abs, signs, comparisons, selections) is
+// none.
 #pragma once
 
 #include <cstdint>

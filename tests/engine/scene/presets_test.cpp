@@ -76,8 +76,8 @@ TEST_CASE("what is wrong about a preset is said") {
   CHECK(error_with("model = \"fluid\"")
             .find("model: stands beside 'preset', which has a model; leave one out") != std::string::npos);
   CHECK(error_with("densty = 1").find("did you mean 'density'?") != std::string::npos);
-  CHECK(error_with("tensile_strength = -1").find("found the integer -1; allowed: a number in [0, 1e+12] (Pa)") !=
-        std::string::npos);
+  CHECK(error_with("tensile_strength = -1")
+            .find("found the integer -1; allowed: a number in [0, 1e+12] (Pa)") != std::string::npos);
   std::string text = kScene;
   text.replace(text.find("wet_sand"), 8, "wet_snad");
   CHECK_THROWS_WITH(read_scene_text(text, "scene.toml"), Catch::Contains("did you mean 'wet_sand'?"));

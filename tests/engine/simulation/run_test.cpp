@@ -123,8 +123,9 @@ TEST_CASE("derived attributes fit the state at rest, and two dimensions are embe
 TEST_CASE("alpha of a stretched metal is the closed form's, and models without one are told so") {
   // F is the same everywhere: plane pure shear by 1 % in one step, free edges have not been felt yet.
   const std::string metal = "materials.rubber.model='von_mises'";
-  const std::vector<std::string> settings = {metal, "materials.rubber.sigma_y=10", "output.attributes=['alpha']",
-                                             "bodies.block.velocity=['x', '-y', 0]", "simulation.path='plain'"};
+  const std::vector<std::string> settings = {
+      metal, "materials.rubber.sigma_y=10", "output.attributes=['alpha']",
+      "bodies.block.velocity=['x', '-y', 0]", "simulation.path='plain'"};
   Simulated run(kBlock, settings);
   run->step(0.01);
   const double mu = 1e4 / 2.6, e = std::log(1.01), dev = std::sqrt(2.0) * e;

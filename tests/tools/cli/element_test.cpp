@@ -104,7 +104,8 @@ TEST_CASE("element names the nearest model, parameter and key", "[element]") {
         "von_mises_voce, johnson_cook_1983, von_mises_perzyna, nacc_wolper_2019, "
         "herschel_bulkley_yue_2015, flow_bargteil_2007, rankine, fluid");
   CHECK(error_of_material(R"("model":"snow_stomakhin_2013","thetac":0.1)") ==
-        "unknown parameter of 'snow_stomakhin_2013' 'thetac'; did you mean 'theta_c'? known: model, mu, lam, kappa, "
+        "unknown parameter of 'snow_stomakhin_2013' 'thetac'; did you mean 'theta_c'? known: model, mu, lam, "
+        "kappa, "
         "density, "
         "youngs_modulus, poissons_ratio, theta_c, theta_s, xi, hardening_cap");
   CHECK(error_of(kSoft + R"(,"F_trail":[[1]])") ==

@@ -44,7 +44,8 @@ int check_all(const std::string& model, const json& more, const std::map<std::st
 }  // namespace
 
 TEST_CASE("von Mises agrees with the oracle's return maps", "[oracle]") {
-  CHECK(check_all("von_mises", json::object(), {{"FE", "/F_E"}, {"dFP", "/F_P"}, {"alpha", "/state/alpha"}}) == 23);
+  CHECK(check_all("von_mises", json::object(),
+                  {{"FE", "/F_E"}, {"dFP", "/F_P"}, {"alpha", "/state/alpha"}}) == 23);
 }
 TEST_CASE("sand agrees with the oracle's return maps", "[oracle]") {
   CHECK(check_all("sand_klar_2016", {{"volume_correction", false}},
@@ -55,7 +56,8 @@ TEST_CASE("Cam-clay agrees with the oracle's return maps, as published", "[oracl
                   {{"FE", "/F_E"}, {"alpha", "/state/alpha"}}) == 27);
 }
 TEST_CASE("Cam-clay agrees with the oracle's return maps that keep the volume", "[oracle]") {
-  CHECK(check_all("nacc_wolper_2019", json::object(), {{"FE_Jpreserving", "/F_E"}, {"alpha", "/state/alpha"}}) == 27);
+  CHECK(check_all("nacc_wolper_2019", json::object(),
+                  {{"FE_Jpreserving", "/F_E"}, {"alpha", "/state/alpha"}}) == 27);
 }
 TEST_CASE("Bargteil's flow agrees with the oracle", "[oracle]") {
   CHECK(check_all("flow_bargteil_2007", {{"dt_ref", 1e-3}}, {{"FE", "/F_E"}, {"dFP", "/F_P"}}) == 12);
