@@ -46,7 +46,7 @@ struct Stretches {
     longest = max(longest, L(sizeof(LaneReal<L>) == 4 ? 1e-8 : 1e-80));
     L volume = L(1);  // beside that of a cube of the longest
     for (int k = 0; k < D; ++k) {
-      s[k] = max(abs(signed_s[k]), L(flat) * longest);
+      s[k] = max(L(flat) * longest, abs(signed_s[k]));  // a NaN stays one
       volume = volume * (s[k] / longest);
     }
     // Two short ones: their product is what the round-off of the long one stands beside.

@@ -67,7 +67,7 @@ struct Fluid {
   template <class L, int D>
   Response<L, D> update_inviscid(ElasticPoint<L, D>& p) const {
     const Lame<L> m = moduli.as<L>();
-    const L trial_J = determinant(p.F_E), J = max(abs(trial_J), L(kLeastVolume));
+    const L trial_J = determinant(p.F_E), J = max(L(kLeastVolume), abs(trial_J));
     p.F_E = Matrix<L, D>::scaled_identity(D == 1 ? J : exp(L(1.0 / D) * log(J)));
     const L pressed = Energy::volume(J);
     return {Matrix<L, D>::scaled_identity(Energy::volumetric(pressed, m)), Energy::fluid_modulus(pressed, m),

@@ -28,7 +28,7 @@ struct IsochoricNeoHookeanEnergy {
   }
   template <class L>
   static L volume(L J) {
-    return max(abs(J), L(kLeastVolume));
+    return max(L(kLeastVolume), abs(J));  // a NaN stays one
   }
   /// |J|^(-2/d): what makes b unimodular.
   template <int D, class L>

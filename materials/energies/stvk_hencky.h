@@ -25,7 +25,7 @@ struct StvkHenckyEnergy {
   template <class L, int D>
   static Vector<L, D> strain(const Vector<L, D>& s) {
     Vector<L, D> e;
-    for (int k = 0; k < D; ++k) e[k] = log(max(abs(s[k]), L(kLeastStretch)));
+    for (int k = 0; k < D; ++k) e[k] = log(max(L(kLeastStretch), abs(s[k])));  // a NaN stays one
     return e;
   }
 

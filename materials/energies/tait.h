@@ -20,7 +20,7 @@ struct TaitEnergy {
 
   template <class L>
   static L volume(L J) {
-    return max(abs(J), L(kLeastVolume));
+    return max(L(kLeastVolume), abs(J));  // a NaN stays one
   }
   template <class L>
   static L inverse_sixth(L J) {

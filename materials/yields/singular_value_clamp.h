@@ -23,7 +23,8 @@ struct SingularValueClamp {
   template <class L, int D>
   Vector<L, D> project(const Vector<L, D>& s) const {
     Vector<L, D> out;
-    for (int k = 0; k < D; ++k) out[k] = clamp(s[k], L(1 - critical_compression), L(1 + critical_stretch));
+    // In this order a NaN stays one.
+    for (int k = 0; k < D; ++k) out[k] = min(L(1 + critical_stretch), max(L(1 - critical_compression), s[k]));
     return out;
   }
 

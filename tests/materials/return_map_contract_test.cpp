@@ -199,3 +199,16 @@ TEMPLATE_LIST_TEST_CASE("no deformation, however broken, gives a NaN or an endle
   CHECK(outsiders == 0);
   CHECK(inverted == 0);
 }
+
+TEMPLATE_LIST_TEST_CASE("a deformation that is no number is not mended", "[materials]", AllCases) {
+  using C = TestType;
+  using Real = typename C::Real;
+  const auto model = sample_model<typename C::Model>();
+  for (int i = 0; i < C::D; ++i)
+    for (int j = 0; j < C::D; ++j) {
+      auto p = point_at<C>(Matrix<double, C::D>::identity());
+      p.F_E(i, j) = std::numeric_limits<Real>::quiet_NaN();
+      const auto response = model.update(p, Real(1e-3));
+      CHECK_FALSE(std::isfinite(frobenius2(response.tau) + response.wave_modulus));
+    }
+}
