@@ -134,6 +134,34 @@ TEST_CASE("Cam-clay sheared keeps its volume, as published it does not", "[mater
   }
 }
 
+TEST_CASE("Cam-clay sheared hardens by where the line from the ellipse's centre crosses it", "[materials]") {
+  const NaccWolper2019 clay = clay_of(true);
+  const double kappa = IsochoricNeoHookeanEnergy::bulk_modulus<3>(clay.moduli), M = 1.2, beta = 0.5;
+  const double p0 = kappa * (1e-5 + std::sinh(3 * 0.02));
+  for (const double side : {0.99, 1.003}) {
+    auto F = Matrix<double, 3>::scaled_identity(side);
+    F(0, 1) = 0.4;
+    const double J = determinant(F), p = -kappa / 2 * (J * J - 1), centre = p0 * (1 - beta) / 2;
+    Matrix<double, 3> dev = std::pow(J, -2.0 / 3) * F * transpose(F);
+    const double mean = trace(dev) / 3;
+    for (int k = 0; k < 3; ++k) dev(k, k) -= mean;
+    const double s2 = clay.moduli.mu * clay.moduli.mu * frobenius2(dev);
+    // By halving, on the yield function as published.
+    double inside = 0, outside = 1;
+    for (int n = 0; n < 60; ++n) {
+      const double part = 0.5 * (inside + outside), p_x = centre + part * (p - centre);
+      const double y = 1.5 * (1 + 2 * beta) * part * part * s2 + M * M * (p_x + beta * p0) * (p_x - p0);
+      (y < 0 ? inside : outside) = part;
+    }
+    const double J_x = std::sqrt(1 - 2 * (centre + inside * (p - centre)) / kappa);
+    auto point = clay.at_rest<double, 3>();
+    point.F_E = F;
+    clay.update(point, 1e-3);
+    CAPTURE(side, p / p0);
+    CHECK(point.history.alpha == Approx(-0.02 + std::log(J / J_x)).epsilon(1e-11));
+  }
+}
+
 TEST_CASE("Cam-clay hardens as it is crushed and softens as it is torn", "[materials]") {
   const NaccWolper2019 clay = clay_of(true);
   const double kappa = IsochoricNeoHookeanEnergy::bulk_modulus<3>(clay.moduli);
