@@ -1,6 +1,7 @@
 // The pieces models describe themselves with.
 #pragma once
 
+#include "materials/elastic_moduli.h"
 #include "materials/model_info.h"
 #include "materials/parameter.h"
 
@@ -19,6 +20,11 @@ constexpr Parameter youngs_modulus_parameter(double default_value = kRequired) {
 constexpr Parameter poissons_ratio_parameter(double default_value = kRequired) {
   return {
       "poissons_ratio", "-", "nu: lateral contraction over extension", default_value, -1, 0.5, true, true};
+}
+
+/// Of those two parameters.
+inline Lame<double> moduli_of(const ParameterValues& v) {
+  return lame(v.at("youngs_modulus"), v.at("poissons_ratio"));
 }
 
 /// What a return map in shear may keep.

@@ -17,9 +17,7 @@ struct FixedCorotated : Elastic<FixedCorotatedEnergy> {
     return describe<FixedCorotated>("elastic solid, exact for rotations, robust when inverted",
                                     "Stomakhin, Howes, Schroeder, Teran 2012");
   }
-  static FixedCorotated make(const ParameterValues& v) {
-    return {{v.at("density"), lame(v.at("youngs_modulus"), v.at("poissons_ratio"))}};
-  }
+  static FixedCorotated make(const ParameterValues& v) { return {{v.at("density"), moduli_of(v)}}; }
 };
 
 }  // namespace firn

@@ -27,9 +27,7 @@ struct FlowBargteil2007 : FlowPlastic<FixedCorotatedEnergy, BargteilFlow<FixedCo
                                       "Bargteil et al. 2007; Irving et al. 2004");
   }
   static FlowBargteil2007 make(const ParameterValues& v) {
-    return {{v.at("density"),
-             lame(v.at("youngs_modulus"), v.at("poissons_ratio")),
-             {v.at("P_Y"), v.at("nu_flow"), v.at("K"), v.at("dt_ref")}}};
+    return {{v.at("density"), moduli_of(v), {v.at("P_Y"), v.at("nu_flow"), v.at("K"), v.at("dt_ref")}}};
   }
 };
 

@@ -13,6 +13,7 @@
 #include "materials/describe.h"
 #include "materials/energies/tait.h"
 #include "materials/flow_plastic.h"
+#include "materials/unimodular.h"
 
 namespace firn {
 
@@ -79,13 +80,9 @@ struct Fluid {
     const Lame<L> m = moduli.as<L>();
     const Svd<L, D> f = svd_any_order(p.F_E);
     const Stretches<L, D> trial(f.s);
-    const L J = product(trial.s), shape = IsochoricNeoHookeanEnergy::shape_factor<D>(J);
-    Vector<L, D> b;
-    for (int k = 0; k < D; ++k) b[k] = shape * trial.s[k] * trial.s[k];
-    const L kept = L(1) / (L(1) + L(1.0 / D) * m.mu * sum(b) * dt * L(1 / viscosity));
-    const Vector<L, D> relaxed = unimodular(kept * deviator(b));
-    Vector<L, D> s;
-    for (int k = 0; k < D; ++k) s[k] = sqrt(relaxed[k] / shape);
+    const UnimodularB<L, D> b(trial.s);
+    const L kept = L(1) / (L(1) + m.mu * b.mean * dt * L(1 / viscosity));
+    const Vector<L, D> s = b.shortened(kept, true);
     // Rotations of the fluid are forgotten too: F_E = V, symmetric.
     p.F_E = compose(f.U, s, f.U);
     return {compose(f.U, Energy::kirchhoff(s, m), f.U), Energy::wave_modulus(s, m),

@@ -25,9 +25,7 @@ struct HerschelBulkleyYue2015 : FlowPlastic<IsochoricNeoHookeanEnergy, HerschelB
                                             "Yue et al. 2015; Ram et al. 2015");
   }
   static HerschelBulkleyYue2015 make(const ParameterValues& v) {
-    return {{v.at("density"),
-             lame(v.at("youngs_modulus"), v.at("poissons_ratio")),
-             {v.at("sigma_y"), v.at("eta"), v.at("h"), v.at("volume") == 0}}};
+    return {{v.at("density"), moduli_of(v), {v.at("sigma_y"), v.at("eta"), v.at("h"), v.at("volume") == 0}}};
   }
 };
 

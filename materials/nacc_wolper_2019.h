@@ -28,7 +28,7 @@ struct NaccWolper2019 : FlowPlastic<IsochoricNeoHookeanEnergy, CohesiveCamClay> 
   }
   static NaccWolper2019 make(const ParameterValues& v) {
     return {{v.at("density"),
-             lame(v.at("youngs_modulus"), v.at("poissons_ratio")),
+             moduli_of(v),
              {v.at("M"), v.at("beta"), v.at("xi"), v.at("alpha_0"), v.at("volume") == 0}}};
   }
 };

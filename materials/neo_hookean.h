@@ -17,9 +17,7 @@ struct NeoHookean : Elastic<NeoHookeanEnergy> {
         "rubber-like solid with a logarithmic barrier against collapse; needs no decomposition",
         "Bonet and Wood 1997");
   }
-  static NeoHookean make(const ParameterValues& v) {
-    return {{v.at("density"), lame(v.at("youngs_modulus"), v.at("poissons_ratio"))}};
-  }
+  static NeoHookean make(const ParameterValues& v) { return {{v.at("density"), moduli_of(v)}}; }
 };
 
 }  // namespace firn

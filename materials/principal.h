@@ -42,6 +42,14 @@ L sum(const Vector<L, D>& s) {
   for (int k = 1; k < D; ++k) out = out + s[k];
   return out;
 }
+/// x - mean(x).
+template <class L, int D>
+Vector<L, D> deviator(const Vector<L, D>& x) {
+  const L mean = L(1.0 / D) * sum(x);
+  Vector<L, D> out;
+  for (int k = 0; k < D; ++k) out[k] = x[k] - mean;
+  return out;
+}
 /// The largest square, and the least value.
 template <class L, int D>
 L largest_square(const Vector<L, D>& s) {

@@ -23,9 +23,7 @@ struct RankineCutOff : FlowPlastic<StvkHenckyEnergy, Rankine> {
                                    "Rankine's criterion; closest-point return of de Souza Neto et al. 2008");
   }
   static RankineCutOff make(const ParameterValues& v) {
-    return {{v.at("density"),
-             lame(v.at("youngs_modulus"), v.at("poissons_ratio")),
-             {v.at("tensile_strength"), v.at("softening_strain")}}};
+    return {{v.at("density"), moduli_of(v), {v.at("tensile_strength"), v.at("softening_strain")}}};
   }
 };
 

@@ -34,7 +34,7 @@ constexpr Parameter h0{"h0", "degrees", "friction angle in the end", 35, 0, 89},
 template <class Rate>
 typename sand_detail::Law<Rate> law(const ParameterValues& v, Rate rate) {
   return {v.at("density"),
-          lame(v.at("youngs_modulus"), v.at("poissons_ratio")),
+          moduli_of(v),
           {{v.at("h0"), v.at("h1"), v.at("h2"), v.at("h3")},
            rate,
            v.at("tensile_strength"),

@@ -37,7 +37,7 @@ struct SnowStomakhin2013 : ElastoPlastic<FixedCorotatedEnergy, SingularValueClam
   }
   static SnowStomakhin2013 make(const ParameterValues& v) {
     return {{v.at("density"),
-             lame(v.at("youngs_modulus"), v.at("poissons_ratio")),
+             moduli_of(v),
              {v.at("theta_c"), v.at("theta_s")},
              {v.at("xi"), std::log(v.at("hardening_cap"))}}};
   }

@@ -17,9 +17,7 @@ struct StvkHencky : Elastic<StvkHenckyEnergy> {
     return describe<StvkHencky>("elastic solid, quadratic in the logarithmic strain",
                                 "as in Klar et al. 2016");
   }
-  static StvkHencky make(const ParameterValues& v) {
-    return {{v.at("density"), lame(v.at("youngs_modulus"), v.at("poissons_ratio"))}};
-  }
+  static StvkHencky make(const ParameterValues& v) { return {{v.at("density"), moduli_of(v)}}; }
 };
 
 }  // namespace firn

@@ -2,18 +2,10 @@
 // map that shortens the deviator keeps the volume.
 #pragma once
 
+#include "materials/energies/isochoric_neo_hookean.h"
 #include "materials/principal.h"
 
 namespace firn {
-
-/// x - mean(x).
-template <class L, int D>
-Vector<L, D> deviator(const Vector<L, D>& x) {
-  const L mean = L(1.0 / D) * sum(x);
-  Vector<L, D> out;
-  for (int k = 0; k < D; ++k) out[k] = x[k] - mean;
-  return out;
-}
 
 /// t > 0 with t (t + a) (t + b) = 1, for a, b >= 0. Each of 1, a^(-1/2), b^(-1/2) and 1/(ab) is too large,
 /// and from above Newton's steps come down on the convex product; from the least of them few are needed.
@@ -45,5 +37,33 @@ Vector<L, D> unimodular(const Vector<L, D>& dev) {
   for (int k = 0; k < D; ++k) gap[k] = gap[k] + t;
   return gap;
 }
+
+/// b_bar = J^(-2/d) b in principal values, apart in mean and deviator, and the way back to stretches of the
+/// same volume.
+template <class L, int D>
+struct UnimodularB {
+  L J, scale, mean;  // scale: J^(-2/d)
+  Vector<L, D> dev;
+
+  explicit UnimodularB(const Vector<L, D>& s)
+      : J(product(s)), scale(IsochoricNeoHookeanEnergy::shape_factor<D>(J)) {
+    Vector<L, D> b;
+    for (int k = 0; k < D; ++k) b[k] = scale * s[k] * s[k];
+    mean = L(1.0 / D) * sum(b);
+    dev = deviator(b);
+  }
+
+  /// With the deviator shortened to `kept` of it: J stays, or, as some papers have it, the mean of b_bar.
+  Vector<L, D> shortened(const L& kept, bool keeps_volume) const {
+    Vector<L, D> b = kept * dev;
+    if (keeps_volume) {
+      b = unimodular(b);
+    } else {
+      for (int k = 0; k < D; ++k) b[k] = b[k] + mean;
+    }
+    for (int k = 0; k < D; ++k) b[k] = sqrt(b[k] / scale);
+    return b;
+  }
+};
 
 }  // namespace firn

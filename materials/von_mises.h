@@ -13,31 +13,25 @@ namespace von_mises_detail {
 template <class Flow>
 using Law = FlowPlastic<StvkHenckyEnergy, Flow>;
 
-constexpr Parameter yield_stress(double default_value = kRequired) {
-  return {"sigma_y", "Pa", "yield stress in a uniaxial pull", default_value, 0, 1e15};
-}
-constexpr Parameter hardening_modulus() {
-  return {"H", "Pa",  "yield stress gained per plastic strain; 0: perfect plasticity, < 0: softening",
-          0,   -1e15, 1e15};
-}
-inline Lame<double> moduli(const ParameterValues& v) {
-  return lame(v.at("youngs_modulus"), v.at("poissons_ratio"));
-}
+constexpr Parameter sigma_y{"sigma_y", "Pa", "yield stress in a uniaxial pull", kRequired, 0, 1e15};
+constexpr Parameter H{
+    "H", "Pa",  "yield stress gained per plastic strain; 0: perfect plasticity, < 0: softening",
+    0,   -1e15, 1e15};
 
 }  // namespace von_mises_detail
 
 struct VonMisesLinear : von_mises_detail::Law<VonMises<LinearHardening>> {
   static constexpr std::string_view name = "von_mises";
   static constexpr Parameter parameters[] = {density_parameter(), youngs_modulus_parameter(),
-                                             poissons_ratio_parameter(), von_mises_detail::yield_stress(),
-                                             von_mises_detail::hardening_modulus()};
+                                             poissons_ratio_parameter(), von_mises_detail::sigma_y,
+                                             von_mises_detail::H};
 
   static ModelInfo info() {
     return describe<VonMisesLinear>("metal that yields at a shear stress, perfect or with linear hardening",
                                     "Simo & Hughes 1998, in logarithmic strain (Simo 1992)");
   }
   static VonMisesLinear make(const ParameterValues& v) {
-    return {{v.at("density"), von_mises_detail::moduli(v), {{v.at("sigma_y"), v.at("H")}, {}}}};
+    return {{v.at("density"), moduli_of(v), {{v.at("sigma_y"), v.at("H")}, {}}}};
   }
 };
 
@@ -47,8 +41,8 @@ struct VonMisesVoce : von_mises_detail::Law<VonMises<VoceHardening>> {
       density_parameter(),
       youngs_modulus_parameter(),
       poissons_ratio_parameter(),
-      von_mises_detail::yield_stress(),
-      von_mises_detail::hardening_modulus(),
+      von_mises_detail::sigma_y,
+      von_mises_detail::H,
       {"saturation", "Pa", "Q: yield stress gained in the end", kRequired, 0, 1e15},
       {"exponent", "-", "b: it is gained over plastic strains of 1/b", kRequired, 0, 1e6, true}};
 
@@ -57,7 +51,7 @@ struct VonMisesVoce : von_mises_detail::Law<VonMises<VoceHardening>> {
   }
   static VonMisesVoce make(const ParameterValues& v) {
     return {{v.at("density"),
-             von_mises_detail::moduli(v),
+             moduli_of(v),
              {{v.at("sigma_y"), v.at("H"), v.at("saturation"), v.at("exponent")}, {}}}};
   }
 };
@@ -79,9 +73,8 @@ struct VonMisesJohnsonCook : von_mises_detail::Law<VonMises<PowerHardening, John
     return describe<VonMisesJohnsonCook>("metal under impact, without temperature", "Johnson & Cook 1983");
   }
   static VonMisesJohnsonCook make(const ParameterValues& v) {
-    return {{v.at("density"),
-             von_mises_detail::moduli(v),
-             {{v.at("A"), v.at("B"), v.at("n")}, {v.at("C"), v.at("rate_0")}}}};
+    return {
+        {v.at("density"), moduli_of(v), {{v.at("A"), v.at("B"), v.at("n")}, {v.at("C"), v.at("rate_0")}}}};
   }
 };
 
@@ -91,15 +84,15 @@ struct VonMisesPerzyna : von_mises_detail::Law<VonMises<LinearHardening, Perzyna
       density_parameter(),
       youngs_modulus_parameter(),
       poissons_ratio_parameter(),
-      von_mises_detail::yield_stress(),
-      von_mises_detail::hardening_modulus(),
+      von_mises_detail::sigma_y,
+      von_mises_detail::H,
       {"eta", "Pa s", "stress above the yield stress per rate of plastic strain", kRequired, 0, 1e15, true}};
 
   static ModelInfo info() {
     return describe<VonMisesPerzyna>("metal or putty that yields with a delay", "Perzyna 1966");
   }
   static VonMisesPerzyna make(const ParameterValues& v) {
-    return {{v.at("density"), von_mises_detail::moduli(v), {{v.at("sigma_y"), v.at("H")}, {v.at("eta")}}}};
+    return {{v.at("density"), moduli_of(v), {{v.at("sigma_y"), v.at("H")}, {v.at("eta")}}}};
   }
 };
 

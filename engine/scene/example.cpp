@@ -82,7 +82,7 @@ SceneDescription live_scene(const ModelInfo& model) {
   d.colliders = colliders();
   d.domain = DomainDescription{{-2, -0.2, -1}, {2, 2, 1}};
   for (const Attribute& attribute : kAttributes)
-    if (attribute.name != "alpha" || model.columns.has(Column::hardening))
+    if (!attribute.needs || !kMaterialState.has(*attribute.needs) || model.columns.has(*attribute.needs))
       d.output.attributes.push_back({std::string(attribute.name), {}});
   return d;
 }

@@ -142,19 +142,12 @@ void plan_attributes(const SceneDescription& scene, Plan& plan, Problems& proble
   for (const Name& name : scene.output.attributes) {
     const auto* attribute = std::find_if(kAttributes.begin(), kAttributes.end(),
                                          [&](const Attribute& a) { return a.name == name.text; });
-    const auto stored = [&](Column c) {
-      return std::any_of(plan.batches.begin(), plan.batches.end(),
-                         [&](const auto& b) { return b.columns.has(c); });
-    };
-    if ((name.text == "F_P" || name.text == "Jp") && !stored(Column::plastic_deformation))
+    const bool stored =
+        !attribute->needs || std::any_of(plan.batches.begin(), plan.batches.end(),
+                                         [&](const auto& b) { return b.columns.has(*attribute->needs); });
+    if (!stored)
       problems.add(name.mark, "output.attributes",
-                   fmt::format("'{}' does not exist here: no material of this scene is plastic", name.text));
-    if (name.text == "alpha" && !stored(Column::hardening))
-      problems.add(name.mark, "output.attributes",
-                   "'alpha' does not exist here: no material of this scene stores what it hardens with");
-    if (name.text == "C" && !stored(Column::affine))
-      problems.add(name.mark, "output.attributes",
-                   "'C' does not exist here: only simulation.transfer = \"apic\" and \"mls\" store it");
+                   fmt::format("'{}' does not exist here: {}", name.text, attribute->why_absent));
     plan.attributes.push_back(attribute);
   }
 }

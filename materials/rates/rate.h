@@ -8,42 +8,31 @@
 
 namespace firn {
 
+/// A stress (Pa), and its derivatives in sigma (-) and in the rate (Pa s).
+template <class L>
+struct RatedStress {
+  L value, by_sigma, by_rate;
+};
+
 struct RateIndependent {
   static constexpr std::string_view name = "none";
-  static constexpr bool linear = true, instant = true;
+  static constexpr bool linear = true;
 
-  /// What a rate of plastic strain adds to the stress: Pa s. Perzyna's eta.
   template <class L>
-  L viscosity() const {
-    return L(0);
-  }
-  template <class L>
-  L factor(const L&) const {
-    return L(1);
-  }
-  template <class L>
-  L factor_slope(const L&) const {
-    return L(0);
+  RatedStress<L> stress(const L& sigma, const L&) const {
+    return {sigma, L(1), L(0)};
   }
 };
 
-/// Perzyna 1966 with a linear overstress: stress - sigma = eta times the rate.
+/// Perzyna 1966 with a linear overstress: stress = sigma + eta rate.
 struct PerzynaRate {
   static constexpr std::string_view name = "Perzyna";
-  static constexpr bool linear = true, instant = false;
+  static constexpr bool linear = true;
   double eta;  // Pa s, > 0
 
   template <class L>
-  L viscosity() const {
-    return L(eta);
-  }
-  template <class L>
-  L factor(const L&) const {
-    return L(1);
-  }
-  template <class L>
-  L factor_slope(const L&) const {
-    return L(0);
+  RatedStress<L> stress(const L& sigma, const L& rate) const {
+    return {sigma + L(eta) * rate, L(1), L(eta)};
   }
 };
 
@@ -51,20 +40,13 @@ struct PerzynaRate {
 /// below.
 struct JohnsonCookRate {
   static constexpr std::string_view name = "Johnson-Cook";
-  static constexpr bool linear = false, instant = false;
+  static constexpr bool linear = false;
   double C, rate_0;  // -, 1/s
 
   template <class L>
-  L viscosity() const {
-    return L(0);
-  }
-  template <class L>
-  L factor(const L& rate) const {
-    return L(1) + L(C) * log(max(rate * L(1 / rate_0), L(1)));
-  }
-  template <class L>
-  L factor_slope(const L& rate) const {
-    return select(rate > L(rate_0), L(C) / max(rate, L(rate_0)), L(0));
+  RatedStress<L> stress(const L& sigma, const L& rate) const {
+    const L factor = L(1) + L(C) * log(max(rate * L(1 / rate_0), L(1)));
+    return {sigma * factor, factor, select(rate > L(rate_0), L(C) * sigma / max(rate, L(rate_0)), L(0))};
   }
 };
 

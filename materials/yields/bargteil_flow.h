@@ -12,7 +12,7 @@
 #include <string>
 
 #include "materials/material_point.h"
-#include "materials/unimodular.h"
+#include "materials/principal.h"
 
 namespace firn {
 

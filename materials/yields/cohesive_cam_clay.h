@@ -45,11 +45,11 @@ struct CohesiveCamClay {
     if (!any(moves)) return s;
     const L J_tip = trial.volume_at(select(trial.crushed(), trial.p0, trial.least_p));
     const L at_rest = root<D>(J_tip);
-    const Vector<L, D> ellipse = on_ellipse(trial, s);
+    const Vector<L, D> ellipse = trial.b.shortened(trial.kept(), keeps_volume);
     Vector<L, D> out;
     for (int k = 0; k < D; ++k) out[k] = select(at_tip, at_rest, select(sheared, ellipse[k], s[k]));
     const L J_x = select(at_tip, J_tip, trial.volume_at(trial.crossing()));
-    h.alpha = h.alpha + select(moves, log(trial.J / J_x), L(0));
+    h.alpha = h.alpha + select(moves, log(trial.b.J / J_x), L(0));
     return out;
   }
 
@@ -76,21 +76,20 @@ struct CohesiveCamClay {
  private:
   template <class L, int D>
   struct Trial {
-    L J, kappa, p, p0, least_p, shear2, M;  // shear2: (6 - d)/2 (1 + 2 beta) |s|^2, Pa^2
-    Vector<L, D> dev_b;                     // of b_bar
+    UnimodularB<L, D> b;
+    L kappa, p, p0, least_p, shear2, M;  // shear2: (6 - d)/2 (1 + 2 beta) |s|^2, Pa^2
 
     Trial(const CohesiveCamClay& clay, const Vector<L, D>& s, const Lame<L>& m, const History<L>& h)
-        : J(product(s)), kappa(IsochoricNeoHookeanEnergy::bulk_modulus<D>(m)), M(clay.M) {
-      const L shape = IsochoricNeoHookeanEnergy::shape_factor<D>(J);
-      for (int k = 0; k < D; ++k) dev_b[k] = shape * s[k] * s[k];
-      dev_b = deviator(dev_b);
-      p = L(-0.5) * kappa * (J * J - L(1));
+        : b(s), kappa(IsochoricNeoHookeanEnergy::bulk_modulus<D>(m)), M(clay.M) {
+      p = L(-0.5) * kappa * (b.J * b.J - L(1));
       p0 = clay.compressive_strength(kappa, h.alpha);
       least_p = -(L(clay.beta) * p0);
-      shear2 = L((6 - D) / 2.0 * (1 + 2 * clay.beta)) * m.mu * m.mu * dot(dev_b, dev_b);
+      shear2 = L((6 - D) / 2.0 * (1 + 2 * clay.beta)) * m.mu * m.mu * dot(b.dev, b.dev);
     }
     /// shear2 on the ellipse, Pa^2.
     L largest_shear2() const { return M * M * max((p - least_p) * (p0 - p), L(0)); }
+    /// Of the deviator, straight down to the ellipse.
+    L kept() const { return sqrt(largest_shear2() / max(shear2, L(1e-30))); }
     LaneMask<L> crushed() const { return p > p0; }
     LaneMask<L> torn() const { return p < least_p; }
     LaneMask<L> sheared() const { return shear2 > largest_shear2(); }
@@ -101,23 +100,6 @@ struct CohesiveCamClay {
     }
     L volume_at(const L& pressure) const { return sqrt(max(L(1) - L(2) * pressure / kappa, L(1e-12))); }
   };
-
-  template <class L, int D>
-  Vector<L, D> on_ellipse(const Trial<L, D>& trial, const Vector<L, D>& s) const {
-    const L kept = sqrt(trial.largest_shear2() / max(trial.shear2, L(1e-30)));
-    const L shape = IsochoricNeoHookeanEnergy::shape_factor<D>(trial.J);
-    L mean_b = L(0);
-    for (int k = 0; k < D; ++k) mean_b = mean_b + L(1.0 / D) * shape * s[k] * s[k];
-    Vector<L, D> b = kept * trial.dev_b;
-    if (keeps_volume) {
-      b = unimodular(b);
-    } else {
-      for (int k = 0; k < D; ++k) b[k] = b[k] + mean_b;
-    }
-    Vector<L, D> out;
-    for (int k = 0; k < D; ++k) out[k] = sqrt(b[k] / shape);
-    return out;
-  }
 
   template <int D, class L>
   static L root(const L& J) {

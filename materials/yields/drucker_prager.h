@@ -25,8 +25,8 @@
 #include "materials/energies/stvk_hencky.h"
 #include "materials/hardening/friction_angle.h"
 #include "materials/material_point.h"
+#include "materials/principal.h"
 #include "materials/rates/rate.h"
-#include "materials/unimodular.h"
 
 namespace firn {
 
@@ -98,8 +98,8 @@ struct DruckerPrager {
 
   template <class L>
   L relaxation(const Lame<L>& m, const L& dt) const {
-    if constexpr (Rate::instant) return L(1);
-    return L(1) + rate.template viscosity<L>() / max(L(2) * m.mu * dt, L(1e-30));
+    if constexpr (std::same_as<Rate, RateIndependent>) return L(1);
+    return L(1) + rate.stress(L(0), L(0)).by_rate / max(L(2) * m.mu * dt, L(1e-30));
   }
 };
 

@@ -33,24 +33,14 @@ struct HerschelBulkley {
 
   template <class L, int D>
   Vector<L, D> project(const Vector<L, D>& s, const Lame<L>& m, History<L>&, L dt) const {
-    const L J = product(s), shape = IsochoricNeoHookeanEnergy::shape_factor<D>(J);
-    Vector<L, D> b;
-    for (int k = 0; k < D; ++k) b[k] = shape * s[k] * s[k];
-    const L mean = L(1.0 / D) * sum(b);
-    const Vector<L, D> dev = deviator(b);
-    const L trial = m.mu * norm(dev), threshold = L(std::sqrt(2.0 / 3) * sigma_y);
+    const UnimodularB<L, D> b(s);
+    const L trial = m.mu * norm(b.dev), threshold = L(std::sqrt(2.0 / 3) * sigma_y);
     const LaneMask<L> flows = (trial > threshold) & (dt > L(0));
     if (!any(flows)) return s;
-    const L excess = overstress(max(trial - threshold, L(1e-30)), L(2) * m.mu * mean * dt);
-    const Vector<L, D> shortened = ((threshold + excess) / max(trial, L(1e-30))) * dev;
-    Vector<L, D> flowed = shortened;
-    if (keeps_volume) {
-      flowed = unimodular(shortened);
-    } else {
-      for (int k = 0; k < D; ++k) flowed[k] = shortened[k] + mean;
-    }
+    const L excess = overstress(max(trial - threshold, L(1e-30)), L(2) * m.mu * b.mean * dt);
+    const Vector<L, D> flowed = b.shortened((threshold + excess) / max(trial, L(1e-30)), keeps_volume);
     Vector<L, D> out;
-    for (int k = 0; k < D; ++k) out[k] = select(flows, sqrt(flowed[k] / shape), s[k]);
+    for (int k = 0; k < D; ++k) out[k] = select(flows, flowed[k], s[k]);
     return out;
   }
 

@@ -13,8 +13,8 @@
 #include "materials/energies/stvk_hencky.h"
 #include "materials/hardening/isotropic.h"
 #include "materials/material_point.h"
+#include "materials/principal.h"
 #include "materials/rates/rate.h"
-#include "materials/unimodular.h"
 
 namespace firn {
 
@@ -60,17 +60,16 @@ struct VonMises {
     const L excess = max(q - hardening.stress(alpha), L(0));
     if constexpr (HardeningLaw::linear && Rate::linear) {
       // Where H softens faster than the elastic stress falls, the point gives way at once.
-      const L stiffness = three_mu + hardening.slope(alpha) + rate.template viscosity<L>() * per_step;
+      const L stiffness = three_mu + hardening.slope(alpha) + rate.stress(L(0), L(0)).by_rate * per_step;
       return min(excess / max(stiffness, L(1e-6) * three_mu), q / three_mu);
     } else {
       // Decreasing in x and of either sign at the ends: Newton's steps, halved where they leave the bracket.
       L low = L(0), high = excess / three_mu, x = L(0.5) * high;
       for (int step = 0; step < kSteps; ++step) {
-        const L a = alpha + x, speed = x * per_step;
-        const L sigma = hardening.stress(a), factor = rate.factor(speed);
-        const L left = q - three_mu * x - sigma * factor - rate.template viscosity<L>() * speed;
-        const L slope = three_mu + hardening.slope(a) * factor +
-                        (sigma * rate.factor_slope(speed) + rate.template viscosity<L>()) * per_step;
+        const L a = alpha + x;
+        const RatedStress<L> flow = rate.stress(hardening.stress(a), x * per_step);
+        const L left = q - three_mu * x - flow.value;
+        const L slope = three_mu + hardening.slope(a) * flow.by_sigma + flow.by_rate * per_step;
         const LaneMask<L> more = left > L(0);
         low = select(more, x, low);
         high = select(more, high, x);

@@ -250,7 +250,8 @@ class TungstenIntoSandstone(SceneTest):
             self.assertEqual(len(rows), table[0]["particles"])
             ball, stone = ([row for row in rows if row["material"] == material] for material in (0, 1))
             depths.append(-min(row["y"] for row in middle + rows if row["material"] == 0))
-            # It stays in its crater and round: of the speed it came with, and of its size.
+            # It stays in its crater and round: of the speed it came with, and of its size. The block's bottom, which
+            # is nearer in cells here, gives back up to 15 %; the scene itself 2.5 %.
             leaves = sum(row["vy"] for row in ball) / len(ball)
             self.assertLess(leaves, 0.2 * speed)
             sizes = [max(row[axis] for row in ball) - min(row[axis] for row in ball) for axis in "xyz"]
@@ -296,7 +297,7 @@ class DamBreak(SceneTest):
         print(f"ahead of the experiment by {min(ahead):.2f} to {max(ahead):.2f} widths; speeds {speeds[0]:.3f}, "
               f"measured {speeds[1]:.3f}", flush=True)
         # A dam takes its time to open, and the floor is not without friction: the real front starts later and then
-        # runs as fast.
+        # runs as fast. How much later the tables do not say: here it is 0.35 widths.
         self.assertAlmostEqual(speeds[0], speeds[1], delta=0.08 * speeds[1])
         self.assertGreater(min(ahead), -0.05)
         self.assertLess(max(ahead), 0.4)

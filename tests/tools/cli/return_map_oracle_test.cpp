@@ -28,7 +28,7 @@ int check_all(const std::string& model, const json& more, const std::map<std::st
                              {"dt", dt},
                              {"material", material},
                              {"F_trial", o["in"]["F"]},
-                             {"state", model == "flow_bargteil_2007" ? json::object() : state}});
+                             {"state", state}});
     const json &out = o["out"], &tol = o["tol"];
     for (const auto& [theirs, pointer] : keys) {
       if (!out.contains(theirs)) continue;
